@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+#include "colonnade/base/error.hpp"
+
+namespace colonnade {
+
+/// One verb of the program: it adds its options to a subcommand and returns what to do when the
+/// subcommand is chosen. Errors leave as Error; main prints them as one line.
+using Action = std::function<ExitCode()>;
+
+Action addRun(CLI::App& verb);
+Action addInspect(CLI::App& verb);
+Action addImport(CLI::App& verb);
+Action addSimulate(CLI::App& verb);
+Action addEvaluate(CLI::App& verb);
+
+}  // namespace colonnade

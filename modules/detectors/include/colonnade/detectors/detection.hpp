@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "colonnade/base/measurement.hpp"
+
+namespace colonnade {
+
+/// What an edge looks like, so that it is recognised in the next frame.
+struct Appearance {
+  int gradient_sign = 0;                            ///< +1: brighter on its right (or far) side
+  Eigen::Vector3f left = Eigen::Vector3f::Zero();   ///< mean B, G, R beside it; gray if no colour
+  Eigen::Vector3f right = Eigen::Vector3f::Zero();  ///< (for floor edges: near and far side)
+};
+
+/// One landmark seen in one frame.
+struct Detection {
+  Measurement measurement;
+  Appearance appearance;
+  Eigen::Vector2d a_px = Eigen::Vector2d::Zero();  ///< ends of the line in the image
+  Eigen::Vector2d b_px = Eigen::Vector2d::Zero();
+  /// Floor edges: where the seen part begins and ends, metres in the robot's axes.
+  Eigen::Vector2d p_robot_a = Eigen::Vector2d::Zero();
+  Eigen::Vector2d p_robot_b = Eigen::Vector2d::Zero();
+  /// Pillar edges: the other edge of the same pillar, as an index into the frame's detections.
+  std::optional<std::size_t> partner;
+  double width_m = 0.0;  ///< pillars whose two edges have range, otherwise 0
+  std::string refusal;   ///< why the detector does not stand behind it; empty = accepted
+
+  LandmarkKind kind() const { return measurement.kind; }
+  bool accepted() const { return refusal.empty(); }
+};
+
+using Detections = std::vector<Detection>;
+
+}  // namespace colonnade

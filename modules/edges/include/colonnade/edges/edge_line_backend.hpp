@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <opencv2/core/mat.hpp>
+#include <string>
+#include <vector>
+
+#include "colonnade/edges/edge_options.hpp"
+
+namespace colonnade {
+
+enum class LineClass { kVertical, kInclined };
+
+/// A line of the Hough transform: u cos(theta) + v sin(theta) = rho, pixels from the image's first
+/// pixel; theta = theta_index degrees (thesis 2015, section 2.2, figure 11). A seed: detectors refit it.
+struct HoughLine {
+  int theta_index = 0;  ///< whole degrees, 0 to 179
+  int rho_bin = 0;      ///< whole pixels, may be negative
+  int votes = 0;
+  LineClass line_class = LineClass::kVertical;
+};
+
+/// What the image stage gives: which pixels are edges, which way their gradient points, and lines.
+struct EdgeLines {
+  /// CV_8UC1: 0 = no edge, else 1 + the gradient direction in one of 8 sectors of 45 degrees
+  /// (sector 0 is centred on +u, sector 2 on +v: brightness grows in that direction).
+  cv::Mat edges;
+  std::vector<HoughLine> lines;  ///< ordered by class, then votes (most first), theta, rho
+};
+
+/// The image stage, exchangeable: OpenCV, integer or hardware.
+class EdgeLineBackend {
+ public:
+  virtual ~EdgeLineBackend() = default;
+  /// gray: CV_8UC1. An empty image gives no edges and no lines.
+  virtual EdgeLines extract(const cv::Mat& gray) = 0;
+};
+
+/// Throws Error (kUsage) for a backend this program was not built with.
+std::unique_ptr<EdgeLineBackend> makeEdgeLineBackend(const std::string& name,
+                                                     const EdgeOptions& options);
+
+}  // namespace colonnade
