@@ -21,11 +21,13 @@ inline std::filesystem::path program() {
   return path ? path : "colonnade";
 }
 
-/// A real recording below COLONNADE_DATA (default: ../shared/data beside the repository), or nothing.
+/// A real recording below COLONNADE_DATA (default: ../shared/data beside the repository), or
+/// nothing.
 inline std::optional<std::filesystem::path> recording(const std::string& name) {
   const char* folder = std::getenv("COLONNADE_DATA");
   const auto path =
-      (folder && *folder ? std::filesystem::path(folder) : sourceFolder() / "../shared/data") / name;
+      (folder && *folder ? std::filesystem::path(folder) : sourceFolder() / "../shared/data") /
+      name;
   if (!std::filesystem::exists(path)) return std::nullopt;
   return path;
 }
@@ -33,7 +35,7 @@ inline std::optional<std::filesystem::path> recording(const std::string& name) {
 }  // namespace colonnade::testing
 
 /// Fetches a recording into `variable`, or skips the test saying which one is absent.
-#define COLONNADE_REQUIRE_RECORDING(variable, name)                                          \
-  const auto variable##_found = colonnade::testing::recording(name);                         \
+#define COLONNADE_REQUIRE_RECORDING(variable, name)                                                \
+  const auto variable##_found = colonnade::testing::recording(name);                               \
   if (!variable##_found) GTEST_SKIP() << "recording " << name << " not found; set COLONNADE_DATA"; \
   const std::filesystem::path variable = *variable##_found

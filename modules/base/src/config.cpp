@@ -150,8 +150,9 @@ void Config::set(const std::string& assignment) {
   const auto equals = assignment.find('=');
   if (dot == std::string::npos || equals == std::string::npos || dot == 0 || equals < dot + 2)
     refuse("--set " + assignment + ": expected Section.key=value");
-  entries_[trimmed(assignment.substr(0, dot))][trimmed(assignment.substr(dot + 1, equals - dot - 1))] =
-      Entry{trimmed(assignment.substr(equals + 1)), "--set"};
+  entries_[trimmed(assignment.substr(0, dot))]
+          [trimmed(assignment.substr(dot + 1, equals - dot - 1))] =
+              Entry{trimmed(assignment.substr(equals + 1)), "--set"};
 }
 
 void Config::requireAllKnown() const {

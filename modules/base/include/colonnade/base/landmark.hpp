@@ -17,9 +17,12 @@ inline constexpr int kLandmarkKinds = 3;
 /// The name used in files: pillar, floor_edge, depth_slope.
 constexpr const char* name(LandmarkKind kind) {
   switch (kind) {
-    case LandmarkKind::kPillarEdge: return "pillar";
-    case LandmarkKind::kFloorEdge: return "floor_edge";
-    case LandmarkKind::kDepthSlope: return "depth_slope";
+    case LandmarkKind::kPillarEdge:
+      return "pillar";
+    case LandmarkKind::kFloorEdge:
+      return "floor_edge";
+    case LandmarkKind::kDepthSlope:
+      return "depth_slope";
   }
   return "unknown";
 }

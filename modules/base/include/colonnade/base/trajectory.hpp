@@ -19,8 +19,8 @@ struct StampedPose {
 /// Poses in the order of time.
 using Trajectory = std::vector<StampedPose>;
 
-/// Reads a TUM file: `stamp tx ty tz qx qy qz qw` a line, # for comments. Throws Error with file and
-/// line for a wrong number of fields, a non-number, a zero quaternion or stamps out of order.
+/// Reads a TUM file: `stamp tx ty tz qx qy qz qw` a line, # for comments. Throws Error with file
+/// and line for a wrong number of fields, a non-number, a zero quaternion or stamps out of order.
 Trajectory readTum(const std::filesystem::path& path);
 
 /// Writes a TUM file atomically: stamps with 6 decimals (microseconds), the rest so that it reads

@@ -16,13 +16,14 @@ struct LandmarkRecord {
   LandmarkKind kind = LandmarkKind::kPillarEdge;
   /// Vertical landmarks: where they stand. Floor edges: the middle of the extent. World, metres.
   Eigen::Vector2d p_world = Eigen::Vector2d::Zero();
-  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  ///< of p_world; floor edges: across the line only
+  Eigen::Matrix2d covariance =
+      Eigen::Matrix2d::Zero();  ///< of p_world; floor edges: across the line only
   /// Floor edges: direction of the line in the world, in [0, pi), and its standard deviation.
   std::optional<double> direction;
   double direction_sigma = 0.0;
   Eigen::Vector2d extent_a = Eigen::Vector2d::Zero();  ///< ends of the seen part; points: p_world
   Eigen::Vector2d extent_b = Eigen::Vector2d::Zero();
-  int hallway = -1;  ///< number of the hallway, -1 = none
+  int hallway = -1;                   ///< number of the hallway, -1 = none
   std::optional<LandmarkId> pair_id;  ///< the other edge of the same pillar
   int observations = 0;
   double first_stamp_s = 0.0;

@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "colonnade/filter/filter_options.hpp"
+#include "colonnade/filter/health.hpp"
+#include "colonnade/filter/landmark_map.hpp"
+#include "colonnade/filter/state.hpp"
+
+namespace colonnade {
+
+/// A measurement held to be of a landmark of the map.
+struct Match {
+  LandmarkId landmark{};
+  Measurement measurement;
+};
+
+/// What the filter expects against what was measured.
+struct Innovation {
+  MeasurementVector nu;      ///< measured minus predicted, angles wrapped
+  MeasurementCovariance S;   ///< H P H^T + R
+  double distance2 = 0.0;    ///< nu^T S^-1 nu
+  bool within_gate = false;  ///< distance2 below the chi-square bound of nu's size
+};
+
+/// EKF-SLAM of a planar robot with landmarks of several kinds in one state. Starts at the origin of
+/// the world without uncertainty. Input that is not finite, or a covariance that is not positive
+/// definite, is refused before it touches the state, and counted in health().
+class EkfSlam {
+ public:
+  explicit EkfSlam(const FilterOptions& options) : options_(options) {}
+
+  /// Moves the robot by u with covariance Q (x, y, phi in the former robot's axes). Refused: false.
+  bool predict(const Pose2& T_previous_robot, const Eigen::Matrix3d& Q);
+
+  /// Nothing for an unknown landmark, a non-finite measurement or a singular S.
+  std::optional<Innovation> innovation(LandmarkId landmark, const Measurement& measurement) const;
+
+  /// The squared Mahalanobis distance of all matches together; nothing when S is singular.
+  std::optional<double> jointDistance2(std::span<const Match> matches) const;
+
+  /// One joint correction with all matches that are finite and within their gate; the others are
+  /// counted. Returns which were used, one flag per match.
+  std::vector<bool> update(std::span<const Match> matches);
+
+  /// A new landmark from one measurement with range or of a floor edge. Nothing when not finite.
+  std::optional<LandmarkId> addLandmark(const Measurement& measurement);
+
+  /// Remembers the present pose, so that a bearing of now can be combined with a later one.
+  LandmarkId addPoseClone();
+  /// What the two bearings say together, with its inverse depth's standard deviation.
+  struct Parallax {
+    double baseline_m = 0.0;
+    double angle = 0.0;
+    double inverse_depth = 0.0;
+    double inverse_depth_sigma = 0.0;
+  };
+  std::optional<Parallax> parallax(LandmarkId clone, const Measurement& first,
+                                   const Measurement& now) const;
+  /// A new inverse-depth landmark from a bearing at the clone and one of now.
+  std::optional<LandmarkId> addLandmark(LandmarkId clone, const Measurement& first,
+                                        const Measurement& now);
+  void remove(LandmarkId block);
+
+  /// Turns inverse-depth blocks whose linearity index allows into points; returns which.
+  std::vector<LandmarkId> settleInverseDepths();
+
+  /// A building axis in the direction (robot's axes) seen now, with its standard deviation.
+  LandmarkId addAxis(double direction, double sigma);
+  std::optional<Innovation> axisInnovation(LandmarkId axis, double direction, double sigma) const;
+  /// Heading correction by a wall direction held to be of this axis. False: refused.
+  bool updateAxis(LandmarkId axis, double direction, double sigma);
+
+  const State& state() const { return state_; }
+  Pose2 pose() const { return state_.T_world_robot(); }
+  Eigen::Matrix3d poseCovariance() const { return state_.P.topLeftCorner<3, 3>(); }
+  Evidence& evidence(LandmarkId landmark) { return state_.find(landmark)->evidence; }
+  const InnovationHealth& health() const { return health_; }
+  InnovationHealth& health() { return health_; }
+  const FilterOptions& options() const { return options_; }
+
+  /// All landmarks as exporters want them.
+  LandmarkMap landmarkMap() const;
+
+ private:
+  LandmarkId nextId() { return LandmarkId{next_id_++}; }
+
+  FilterOptions options_;
+  State state_;
+  InnovationHealth health_;
+  std::int32_t next_id_ = 0;
+};
+
+}  // namespace colonnade

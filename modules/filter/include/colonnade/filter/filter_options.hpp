@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "colonnade/base/angle.hpp"
+#include "colonnade/base/options.hpp"
+
+namespace colonnade {
+
+struct FilterOptions {
+  static constexpr const char* kSection = "Filter";
+  bool invariant = true;
+  double gate_probability = 0.99;
+  double inverse_depth_linearity = 0.1;
+
+  void visit(OptionVisitor& v) {
+    v.flag("invariant", invariant, "right-invariant transport of the covariance; false: plain EKF");
+    v.number("gate_probability", gate_probability, {0.5, 0.999999},
+             "share of right measurements the chi-square gate lets through");
+    v.number("inverse_depth_linearity", inverse_depth_linearity, {0.001, 1},
+             "linearity index below which inverse depth becomes x, y (Civera 2008, eq. 35)");
+  }
+};
+
+}  // namespace colonnade

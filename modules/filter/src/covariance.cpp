@@ -1,0 +1,175 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "colonnade/filter/covariance.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+
+#include "colonnade/base/angle.hpp"
+
+namespace colonnade {
+namespace {
+
+/// Every direction of the state back into [-pi, pi].
+void wrapDirections(State& state) {
+  state.x(2) = wrapAngle(state.x(2));
+  for (const Block& block : state.blocks) {
+    if (block.block_kind == BlockKind::kAxis)
+      state.x(block.offset) = wrapAngle(state.x(block.offset));
+    else if (block.size() >= 3)
+      state.x(block.offset + 2) = wrapAngle(state.x(block.offset + 2));
+  }
+}
+
+/// x <- the world turned by dx's heading about its origin, then the rest of dx added.
+void retract(State& state, const Eigen::VectorXd& dx, bool invariant) {
+  if (!invariant) {
+    state.x += dx;
+    wrapDirections(state);
+    return;
+  }
+  const double turn = dx(2);
+  const Eigen::VectorXd rest = dx - worldTurn(state) * turn;
+  const Eigen::Matrix2d R = Eigen::Rotation2Dd(turn).toRotationMatrix();
+  const auto turnPoint = [&](int offset) {
+    state.x.segment<2>(offset) = (R * state.x.segment<2>(offset)).eval();
+  };
+  turnPoint(0);
+  state.x(2) += turn;
+  for (const Block& block : state.blocks) {
+    if (block.block_kind == BlockKind::kAxis) {
+      state.x(block.offset) += turn;
+      continue;
+    }
+    turnPoint(block.offset);
+    if (block.size() >= 3) state.x(block.offset + 2) += turn;
+  }
+  state.x += rest;
+  wrapDirections(state);
+}
+
+/// P <- M P M^T with M = I + g e^T, e the heading: a symmetric change of rank two, since
+/// P + g h^T + h g^T + v g g^T = P + g (h + v/2 g)^T + (h + v/2 g) g^T with h = P e, v = e^T P e.
+void transport(Eigen::MatrixXd& P, const Eigen::VectorXd& g) {
+  const Eigen::VectorXd h = P.col(2) + 0.5 * P(2, 2) * g;
+  P.selfadjointView<Eigen::Lower>().rankUpdate(g, h);
+}
+
+void mirrorLowerTriangle(Eigen::MatrixXd& P) {
+  for (Eigen::Index column = 1; column < P.cols(); ++column)
+    P.col(column).head(column) = P.row(column).head(column).transpose();
+}
+
+}  // namespace
+
+void predictRobot(State& state, const Pose2& T_previous_robot, const Eigen::Matrix3d& Q) {
+  Eigen::Matrix3d F;
+  Eigen::Matrix3d G;
+  const Pose2 pose = compose(state.T_world_robot(), T_previous_robot, &F, &G);
+  state.x.head<3>() = pose.vector();
+  const Eigen::Index rest = state.x.size() - 3;
+  Eigen::MatrixXd& P = state.P;
+  const Eigen::Matrix3d P_robot =
+      F * P.topLeftCorner<3, 3>() * F.transpose() + G * Q * G.transpose();
+  P.topLeftCorner<3, 3>() = 0.5 * (P_robot + P_robot.transpose());
+  if (rest == 0) return;
+  P.topRightCorner(3, rest) = (F * P.topRightCorner(3, rest)).eval();
+  P.bottomLeftCorner(rest, 3) = P.topRightCorner(3, rest).transpose();
+}
+
+Eigen::MatrixXd timesTransposed(const Eigen::MatrixXd& P, const SparseJacobian& H) {
+  Eigen::MatrixXd PHt = Eigen::MatrixXd::Zero(P.rows(), H.rows);
+  for (const auto& part : H.parts)
+    PHt.middleCols(part.row, part.H.rows()).noalias() +=
+        P.middleCols(part.column, part.H.cols()) * part.H.transpose();
+  return PHt;
+}
+
+Eigen::MatrixXd times(const SparseJacobian& H, const Eigen::MatrixXd& A) {
+  Eigen::MatrixXd HA = Eigen::MatrixXd::Zero(H.rows, A.cols());
+  for (const auto& part : H.parts)
+    HA.middleRows(part.row, part.H.rows()).noalias() +=
+        part.H * A.middleRows(part.column, part.H.cols());
+  return HA;
+}
+
+bool correct(State& state, const SparseJacobian& H, const Eigen::VectorXd& nu,
+             const Eigen::MatrixXd& R, bool invariant) {
+  const Eigen::MatrixXd PHt = timesTransposed(state.P, H);
+  const Eigen::MatrixXd S = times(H, PHt) + R;
+  const Eigen::LLT<Eigen::MatrixXd> llt(S);
+  if (llt.info() != Eigen::Success) return false;
+  const Eigen::VectorXd dx = PHt * llt.solve(nu);
+  if (!dx.allFinite()) return false;
+
+  // W W^T = P H^T S^-1 H P, so that P loses a symmetric product: it cannot become unsymmetric.
+  const Eigen::MatrixXd W = llt.matrixL().solve(PHt.transpose()).transpose();
+  state.P.selfadjointView<Eigen::Lower>().rankUpdate(W, -1.0);
+  mirrorLowerTriangle(state.P);
+
+  if (!invariant) {
+    retract(state, dx, false);
+    return true;
+  }
+  const Eigen::VectorXd G_before = worldTurn(state);
+  retract(state, dx, true);
+  transport(state.P, worldTurn(state) - G_before);
+  mirrorLowerTriangle(state.P);
+  return true;
+}
+
+void augment(State& state, Block block, const BlockVector& values, const SparseJacobian& J_state,
+             const Eigen::MatrixXd& added_covariance) {
+  const Eigen::Index n = state.x.size();
+  const Eigen::Index k = values.size();
+  const Eigen::MatrixXd PJt = timesTransposed(state.P, J_state);
+  const Eigen::MatrixXd P_block = times(J_state, PJt) + added_covariance;
+  state.x.conservativeResize(n + k);
+  state.x.tail(k) = values;
+  state.P.conservativeResize(n + k, n + k);
+  state.P.topRightCorner(n, k) = PJt;
+  state.P.bottomLeftCorner(k, n) = PJt.transpose();
+  state.P.bottomRightCorner(k, k) = 0.5 * (P_block + P_block.transpose());
+  block.offset = static_cast<int>(n);
+  state.blocks.push_back(block);
+}
+
+void replaceBlock(State& state, LandmarkId id, BlockKind kind, const BlockVector& values,
+                  const Eigen::MatrixXd& J) {
+  Block* block = state.find(id);
+  const Eigen::Index offset = block->offset;
+  const Eigen::Index before = block->size();
+  const Eigen::Index after = values.size();
+  const Eigen::Index n = state.x.size();
+  // T maps the old state to the new one: identity but for the block.
+  Eigen::MatrixXd TP(n - before + after, n);
+  TP << state.P.topRows(offset), J * state.P.middleRows(offset, before),
+      state.P.bottomRows(n - offset - before);
+  Eigen::MatrixXd P(TP.rows(), TP.rows());
+  P << TP.leftCols(offset), TP.middleCols(offset, before) * J.transpose(),
+      TP.rightCols(n - offset - before);
+  Eigen::VectorXd x(TP.rows());
+  x << state.x.head(offset), values, state.x.tail(n - offset - before);
+  state.P = 0.5 * (P + P.transpose());
+  state.x = std::move(x);
+  block->block_kind = kind;
+  for (Block& other : state.blocks)
+    if (other.offset > offset) other.offset += static_cast<int>(after - before);
+}
+
+void removeBlock(State& state, LandmarkId id) {
+  const Block* block = state.find(id);
+  const Eigen::Index offset = block->offset;
+  const Eigen::Index size = block->size();
+  const Eigen::Index tail = state.x.size() - offset - size;
+  state.x.segment(offset, tail) = state.x.tail(tail).eval();
+  state.x.conservativeResize(offset + tail);
+  state.P.middleRows(offset, tail) = state.P.bottomRows(tail).eval();
+  state.P.middleCols(offset, tail) = state.P.rightCols(tail).eval();
+  state.P.conservativeResize(offset + tail, offset + tail);
+  state.blocks.erase(state.blocks.begin() + (block - state.blocks.data()));
+  for (Block& other : state.blocks)
+    if (other.offset > offset) other.offset -= static_cast<int>(size);
+}
+
+}  // namespace colonnade

@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "colonnade/filter/landmark_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "colonnade/base/angle.hpp"
+#include "colonnade/filter/ekf_slam.hpp"
+
+namespace colonnade {
+namespace {
+
+void fillPoint(const State& state, const Block& block, LandmarkRecord& record) {
+  const auto P = state.P.block(block.offset, block.offset, block.size(), block.size());
+  if (block.block_kind == BlockKind::kPoint) {
+    record.p_world = state.values(block);
+    record.covariance = P;
+  } else {
+    Eigen::Matrix<double, 2, 4> J;
+    record.p_world = pointOf(state.values(block), &J);
+    record.covariance = J * P * J.transpose();
+  }
+  record.extent_a = record.extent_b = record.p_world;
+}
+
+/// The line m . (p - anchor) = d at `along` metres from the anchor's foot, and the variance of that
+/// point across the line: d(m . (p - anchor) - d) by anchor, alpha and d.
+void fillLine(const State& state, const Block& block, LandmarkRecord& record) {
+  const BlockVector y = state.values(block);
+  const Eigen::Vector2d m(std::cos(y(2)), std::sin(y(2)));
+  const Eigen::Vector2d along(-m.y(), m.x());
+  const Eigen::Vector2d foot = y.head<2>() + y(3) * m;
+  const auto at = [&](double s) -> Eigen::Vector2d { return foot + s * along; };
+  const double middle = 0.5 * (block.evidence.along_min_m + block.evidence.along_max_m);
+  record.extent_a = at(block.evidence.along_min_m);
+  record.extent_b = at(block.evidence.along_max_m);
+  record.p_world = at(middle);
+  const double direction = wrapAngle(y(2) + kPi / 2.0);
+  record.direction = direction < 0.0 ? direction + kPi : (direction >= kPi ? 0.0 : direction);
+  record.direction_sigma = std::sqrt(std::max(0.0, state.P(block.offset + 2, block.offset + 2)));
+  Eigen::RowVector4d J;
+  J << m.transpose(), -middle, 1.0;
+  const double variance =
+      (J * state.P.block<4, 4>(block.offset, block.offset) * J.transpose()).value();
+  record.covariance = std::max(0.0, variance) * m * m.transpose();
+}
+
+}  // namespace
+
+LandmarkMap EkfSlam::landmarkMap() const {
+  LandmarkMap map;
+  for (const Block& block : state_.blocks) {
+    if (!block.isLandmark()) continue;
+    LandmarkRecord record;
+    record.id = block.id;
+    record.kind = block.landmark_kind;
+    record.observations = block.evidence.observations;
+    record.first_stamp_s = block.evidence.first_stamp_s;
+    record.last_stamp_s = block.evidence.last_stamp_s;
+    if (block.block_kind == BlockKind::kFloorLine)
+      fillLine(state_, block, record);
+    else
+      fillPoint(state_, block, record);
+    map.push_back(record);
+  }
+  return map;
+}
+
+}  // namespace colonnade

@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "colonnade/base/pose2.hpp"
+
+#include <gtest/gtest.h>
+
+#include "colonnade/base/angle.hpp"
+#include "numeric_jacobian.hpp"
+
+namespace colonnade {
+namespace {
+
+Pose2 poseOf(const Eigen::VectorXd& v) { return {v(0), v(1), v(2)}; }
+
+TEST(Pose2, InverseUndoes) {
+  const Pose2 T{1.2, -0.7, 2.9};
+  const Pose2 identity = T * T.inverse();
+  EXPECT_LT(identity.vector().norm(), 1e-12);
+}
+
+TEST(Pose2, ComposesLikeMatrices) {
+  const Pose2 a{1.2, -0.7, 2.9};
+  const Pose2 b{-0.3, 2.0, 1.1};
+  const Eigen::Isometry3d T = a.toIsometry3() * b.toIsometry3();
+  EXPECT_LT(((a * b).toIsometry3().matrix() - T.matrix()).norm(), 1e-12);
+  EXPECT_LT((planarPart(T).vector() - (a * b).vector()).norm(), 1e-12);
+}
+
+TEST(Pose2, JacobiansAgreeWithNumericOnes) {
+  const Eigen::Vector3d a(1.2, -0.7, 0.9);
+  const Eigen::Vector3d b(-0.3, 2.0, 1.1);
+  Eigen::Matrix3d J_a;
+  Eigen::Matrix3d J_b;
+  compose(poseOf(a), poseOf(b), &J_a, &J_b);
+  const auto by_a = testing::numericJacobian(
+      [&](const Eigen::VectorXd& v) -> Eigen::VectorXd { return (poseOf(v) * poseOf(b)).vector(); },
+      a);
+  const auto by_b = testing::numericJacobian(
+      [&](const Eigen::VectorXd& v) -> Eigen::VectorXd { return (poseOf(a) * poseOf(v)).vector(); },
+      b);
+  EXPECT_LT((J_a - by_a).cwiseAbs().maxCoeff(), 1e-8);
+  EXPECT_LT((J_b - by_b).cwiseAbs().maxCoeff(), 1e-8);
+
+  const Eigen::Vector2d p(0.4, -1.5);
+  Eigen::Matrix<double, 2, 3> J_pose;
+  Eigen::Matrix2d J_point;
+  transform(poseOf(a), p, &J_pose, &J_point);
+  const auto by_pose = testing::numericJacobian(
+      [&](const Eigen::VectorXd& v) -> Eigen::VectorXd { return transform(poseOf(v), p); }, a);
+  EXPECT_LT((J_pose - by_pose).cwiseAbs().maxCoeff(), 1e-8);
+}
+
+TEST(Angle, WrapsIntoItsInterval) {
+  EXPECT_NEAR(wrapAngle(3.5 * kPi), -0.5 * kPi, 1e-12);
+  EXPECT_NEAR(wrapQuarterTurn(radians(89.0)), radians(-1.0), 1e-12);
+}
+
+}  // namespace
+}  // namespace colonnade

@@ -1,0 +1,222 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "colonnade/filter/ekf_slam.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "colonnade/base/angle.hpp"
+#include "colonnade/filter/covariance.hpp"
+#include "colonnade/filter/gate.hpp"
+#include "simulated_hall.hpp"
+
+namespace colonnade {
+namespace {
+
+using testing::SimulatedHall;
+
+/// A filter in the middle of a run, with landmarks of every kind.
+EkfSlam afterSomeSteps(bool invariant, int steps = 20) {
+  FilterOptions options;
+  options.invariant = invariant;
+  SimulatedHall hall(3);
+  EkfSlam filter(options);
+  for (int i = 0; i < steps; ++i) hall.step(filter);
+  return filter;
+}
+
+void expectSound(const EkfSlam& filter) {
+  const Eigen::MatrixXd& P = filter.state().P;
+  ASSERT_TRUE(P.allFinite());
+  EXPECT_EQ(0.0, (P - P.transpose()).cwiseAbs().maxCoeff());
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(P);
+  EXPECT_GT(eigen.eigenvalues()(0), -1e-9 * eigen.eigenvalues().tail(1)(0));
+}
+
+TEST(EkfSlam, CovarianceStaysSymmetricAndPositive) {
+  for (const bool invariant : {true, false}) expectSound(afterSomeSteps(invariant, 150));
+}
+
+TEST(EkfSlam, JointCorrectionIsTheTextbookOne) {
+  EkfSlam filter = afterSomeSteps(false);
+  State state = filter.state();
+  const Eigen::Index n = state.x.size();
+  Eigen::MatrixXd H = Eigen::MatrixXd::Zero(2, n);
+  SparseJacobian sparse(2);
+  Eigen::MatrixXd robot(2, 3);
+  robot << 0.1, -0.2, 0.5, 1.0, 0.3, -0.7;
+  Eigen::MatrixXd part(2, 2);
+  part << 0.4, 0.9, -0.6, 0.2;
+  H.leftCols(3) = robot;
+  H.middleCols(5, 2) = part;
+  sparse.add(0, 0, robot).add(0, 5, part);
+  const Eigen::Vector2d nu(0.01, -0.02);
+  const Eigen::Matrix2d R = Eigen::Vector2d(1e-3, 2e-3).asDiagonal();
+  const Eigen::MatrixXd S = H * state.P * H.transpose() + R;
+  const Eigen::MatrixXd K = state.P * H.transpose() * S.inverse();
+  const Eigen::VectorXd x = state.x + K * nu;
+  const Eigen::MatrixXd P = (Eigen::MatrixXd::Identity(n, n) - K * H) * state.P;
+  ASSERT_TRUE(correct(state, sparse, nu, R, false));
+  EXPECT_LT((state.x - x).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_LT((state.P - P).cwiseAbs().maxCoeff(), 1e-12);
+}
+
+TEST(EkfSlam, TransportIsTheCongruenceWithM) {
+  EkfSlam filter = afterSomeSteps(true);
+  State state = filter.state();
+  State plain = state;
+  SparseJacobian H(1);
+  H.add(0, 0, Eigen::RowVector3d(0.2, 0.4, 1.0));
+  const Eigen::VectorXd nu = Eigen::VectorXd::Constant(1, 0.3);
+  const Eigen::MatrixXd R = Eigen::MatrixXd::Constant(1, 1, 1e-4);
+  const Eigen::VectorXd before = worldTurn(state);
+  ASSERT_TRUE(correct(state, H, nu, R, true));
+  ASSERT_TRUE(correct(plain, H, nu, R, false));
+  Eigen::MatrixXd M = Eigen::MatrixXd::Identity(before.size(), before.size());
+  M.col(2) += worldTurn(state) - before;
+  EXPECT_LT((state.P - M * plain.P * M.transpose()).cwiseAbs().maxCoeff(), 1e-12);
+}
+
+TEST(EkfSlam, NonFiniteInputIsRefusedAndChangesNothing) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EkfSlam filter = afterSomeSteps(true);
+  const State before = filter.state();
+  EXPECT_FALSE(filter.predict({nan, 0.0, 0.0}, Eigen::Matrix3d::Identity()));
+  EXPECT_FALSE(filter.predict({0.1, 0.0, 0.0}, Eigen::Matrix3d::Constant(nan)));
+  EXPECT_FALSE(filter.predict({0.1, 0.0, 0.0}, -Eigen::Matrix3d::Identity()));
+  Measurement bad;
+  bad.z = Eigen::Vector2d(0.1, nan);
+  bad.R = Eigen::Matrix2d::Identity();
+  const Match match{before.blocks.front().id, bad};
+  EXPECT_FALSE(filter.update({&match, 1}).front());
+  EXPECT_FALSE(filter.addLandmark(bad).has_value());
+  EXPECT_TRUE(before.x == filter.state().x);
+  EXPECT_TRUE(before.P == filter.state().P);
+  EXPECT_GE(filter.health().refused().at("measurement not finite"), 2u);
+}
+
+TEST(EkfSlam, AnOutlierIsGatedAndCounted) {
+  EkfSlam filter = afterSomeSteps(true);
+  const Block& block = filter.state().blocks.front();
+  Measurement wrong;
+  wrong.kind = block.landmark_kind;
+  wrong.z = Eigen::Vector2d(0.0, 1.0);
+  wrong.R = Eigen::Vector2d(1e-4, 1e-4).asDiagonal();
+  wrong.z =
+      predictMeasurement(filter.pose(), block.block_kind, filter.state().values(block), wrong).z;
+  wrong.z(1) += 5.0;
+  const Match match{block.id, wrong};
+  const State before = filter.state();
+  EXPECT_FALSE(filter.update({&match, 1}).front());
+  EXPECT_TRUE(before.x == filter.state().x);
+}
+
+TEST(EkfSlam, RemovingALandmarkKeepsTheOthersMarginal) {
+  EkfSlam filter = afterSomeSteps(true);
+  const Block removed = filter.state().blocks[1];
+  const State before = filter.state();
+  filter.remove(removed.id);
+  const State& after = filter.state();
+  ASSERT_EQ(before.x.size() - removed.size(), after.x.size());
+  EXPECT_EQ(nullptr, after.find(removed.id));
+  for (const Block& block : after.blocks) {
+    const Block& was = *before.find(block.id);
+    EXPECT_TRUE(before.values(was) == after.values(block));
+    EXPECT_TRUE(before.P.block(0, was.offset, 3, was.size()) ==
+                after.P.block(0, block.offset, 3, block.size()));
+  }
+}
+
+TEST(EkfSlam, APurgedCloneLeavesNoTrace) {
+  EkfSlam filter = afterSomeSteps(true);
+  const State before = filter.state();
+  filter.remove(filter.addPoseClone());
+  EXPECT_TRUE(before.x == filter.state().x);
+  EXPECT_TRUE(before.P == filter.state().P);
+}
+
+TEST(EkfSlam, BearingsFromTwoPlacesMakeALandmarkThatSettles) {
+  EkfSlam filter{FilterOptions{}};
+  const Eigen::Vector2d landmark(3.0, 1.0);
+  const auto look = [&] {
+    Measurement m;
+    m.z.setZero(1);
+    m.R = MeasurementCovariance::Constant(1, 1, radians(0.1) * radians(0.1));
+    m.z = predictMeasurement(filter.pose(), BlockKind::kPoint, landmark, m).z;
+    return m;
+  };
+  const Measurement first = look();
+  const LandmarkId clone = filter.addPoseClone();
+  const Eigen::Matrix3d Q = Eigen::Vector3d(1e-6, 1e-6, 1e-7).asDiagonal();
+  for (int i = 0; i < 10; ++i) filter.predict({0.1, 0.0, 0.02}, Q);
+  const auto seen = filter.parallax(clone, first, look());
+  ASSERT_TRUE(seen);
+  EXPECT_NEAR(seen->inverse_depth, 1.0 / landmark.norm(), 1e-6);
+  const auto id = filter.addLandmark(clone, first, look());
+  ASSERT_TRUE(id);
+  filter.remove(clone);
+  for (int i = 0; i < 10; ++i) {
+    filter.predict({0.1, 0.0, 0.02}, Q);
+    const Match match{*id, look()};
+    EXPECT_TRUE(filter.update({&match, 1}).front());
+  }
+  const auto before = filter.landmarkMap();
+  const auto settled = filter.settleInverseDepths();
+  ASSERT_EQ(std::vector<LandmarkId>{*id}, settled);
+  const auto after = filter.landmarkMap();
+  EXPECT_LT((before[0].p_world - after[0].p_world).norm(), 1e-12);
+  EXPECT_LT((before[0].covariance - after[0].covariance).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_LT((after[0].p_world - landmark).norm(), 0.05);
+  expectSound(filter);
+}
+
+TEST(EkfSlam, AnAxisStopsTheHeadingFromDrifting) {
+  EkfSlam with{FilterOptions{}};
+  EkfSlam without{FilterOptions{}};
+  const Eigen::Matrix3d Q = Eigen::Vector3d(1e-5, 1e-5, radians(0.3) * radians(0.3)).asDiagonal();
+  const LandmarkId axis = with.addAxis(0.1, radians(1.0));
+  for (int i = 0; i < 400; ++i) {
+    with.predict({0.05, 0.0, 0.004}, Q);
+    without.predict({0.05, 0.0, 0.004}, Q);
+    const double seen = wrapQuarterTurn(0.1 - 0.004 * (i + 1));
+    EXPECT_TRUE(with.updateAxis(axis, seen, radians(1.0)));
+  }
+  EXPECT_LT(std::sqrt(with.poseCovariance()(2, 2)), radians(1.5));
+  EXPECT_GT(std::sqrt(without.poseCovariance()(2, 2)), radians(5.0));
+  EXPECT_NEAR(0.0, wrapAngle(with.pose().phi - 1.6), radians(0.5));
+}
+
+TEST(Gate, QuantilesAreTheTabulatedOnes) {
+  EXPECT_NEAR(chiSquareQuantile(0.99, 1), 6.6349, 1e-4);
+  EXPECT_NEAR(chiSquareQuantile(0.99, 2), 9.2103, 1e-4);
+  EXPECT_NEAR(chiSquareQuantile(0.95, 10), 18.3070, 1e-4);
+}
+
+/// Mean over runs of e^T P^-1 e / 3 at the end of a run with strong noise.
+double finalNees(bool invariant) {
+  double sum = 0.0;
+  const int runs = 30;
+  for (int run = 0; run < runs; ++run) {
+    SimulatedHall hall(static_cast<unsigned>(100 + run));
+    FilterOptions options;
+    options.invariant = invariant;
+    EkfSlam filter(options);
+    for (int i = 0; i < 300; ++i) hall.step(filter);
+    sum += hall.nees(filter);
+  }
+  return sum / runs;
+}
+
+TEST(Consistency, TheInvariantFilterStaysHonestWhereThePlainOneDoesNot) {
+  const double invariant = finalNees(true);
+  const double plain = finalNees(false);
+  ::testing::Test::RecordProperty("nees_invariant", std::to_string(invariant));
+  ::testing::Test::RecordProperty("nees_plain", std::to_string(plain));
+  EXPECT_LT(invariant, 1.7);
+  EXPECT_GT(invariant, 0.5);
+  EXPECT_GT(plain, 1.5 * invariant);
+}
+
+}  // namespace
+}  // namespace colonnade
