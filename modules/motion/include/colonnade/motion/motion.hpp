@@ -9,7 +9,14 @@
 
 namespace colonnade {
 
-enum class MotionSource { kNone, kOdometry, kPhotometric, kPhotometricIcp, kIcp, kConstantVelocity };
+enum class MotionSource {
+  kNone,
+  kOdometry,
+  kPhotometric,
+  kPhotometricIcp,
+  kIcp,
+  kConstantVelocity
+};
 const char* name(MotionSource source);
 
 /// How the robot moved from the former frame to this one.

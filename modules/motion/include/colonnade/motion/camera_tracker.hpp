@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+#include <memory>
+
+#include "colonnade/frames/frame.hpp"
+#include "colonnade/motion/motion.hpp"
+#include "colonnade/motion/motion_options.hpp"
+
+namespace colonnade {
+
+/// How the camera moved in space from the former frame to this one, both in the optical frame.
+struct CameraMotion {
+  Eigen::Isometry3d T_previous_camera = Eigen::Isometry3d::Identity();
+  /// Of e (metres, then radians, axes of this frame's camera) in T_true = T * exp(e).
+  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+  MotionSource source = MotionSource::kNone;
+};
+
+/// Visual odometry on gray image and depth: direct alignment to a key frame, or the former velocity
+/// with wide noise while nothing can be aligned. Works at no more than 400 pixels of width.
+/// Deterministic, single-threaded.
+class CameraTracker {
+ public:
+  explicit CameraTracker(const MotionOptions& options);
+  ~CameraTracker();
+  CameraTracker(CameraTracker&&) noexcept;
+  CameraTracker& operator=(CameraTracker&&) noexcept;
+
+  /// Frames in the order of time. Asking again for the same frame costs nothing, so that mounting
+  /// and motion can share a tracker.
+  const CameraMotion& track(const Frame& frame);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace colonnade

@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "colonnade/base/angle.hpp"
+#include "colonnade/base/options.hpp"
+
+namespace colonnade {
+
+/// How motion between frames is measured, and how sure that is.
+struct MotionOptions {
+  static constexpr const char* kSection = "Motion";
+
+  std::string source = "auto";    ///< auto: odometry where a frame has it, else visual
+  std::string mounting = "auto";  ///< auto: per_frame when the first frame has no odometry
+
+  /// Wheel odometry whose log states no covariance: a random walk, so that cutting a way into more
+  /// frames does not change the sum. Variances grow with the way and with the turn.
+  double odometry_along = 0.02;            ///< m after 1 m
+  double odometry_across = 0.01;           ///< m after 1 m
+  double odometry_heading = radians(1.5);  ///< rad after 1 m
+  double odometry_turn = radians(2.5);     ///< rad after 1 rad
+  double odometry_floor_m = 0.0005;        ///< of every increment, even at rest
+  double odometry_floor_angle = radians(0.02);
+
+  /// Visual odometry.
+  double keyframe_distance_m = 0.15;
+  double keyframe_angle = radians(8.0);
+  double keyframe_share = 0.6;  ///< of the key frame's points still compared
+  double min_share = 0.3;
+  double photometric_correlation = 8.0;
+  double surface_correlation = 40.0;
+  double weak_direction_ratio = 0.02;
+  double max_speed_m_s = 2.0;
+  double max_turn_rate = radians(150.0);
+
+  /// When nothing measures: the former velocity, with this random change of it.
+  double coasting_speed_sigma_m_s = 0.4;
+  double coasting_turn_sigma = radians(30.0);  ///< rad/s
+
+  void visit(OptionVisitor& v) {
+    v.choice("source", source, {"auto", "odometry", "visual", "constant_velocity"},
+             "auto: wheel odometry where a frame has it, otherwise visual odometry");
+    v.choice("mounting", mounting, {"auto", "fixed", "per_frame"},
+             "camera tilt and height: from the log, or from the floor in each frame");
+    v.number("odometry_along_m", odometry_along, {0, 1}, "sigma along the way after 1 m");
+    v.number("odometry_across_m", odometry_across, {0, 1}, "sigma across the way after 1 m");
+    v.angle("odometry_heading_deg", odometry_heading, {0, 90}, "sigma of heading after 1 m");
+    v.angle("odometry_turn_deg", odometry_turn, {0, 90}, "sigma of heading after a turn of 1 rad");
+    v.number("odometry_floor_m", odometry_floor_m, {1e-6, 1}, "smallest sigma of an increment");
+    v.angle("odometry_floor_deg", odometry_floor_angle, {1e-4, 10}, "smallest sigma, heading");
+    v.number("keyframe_distance_m", keyframe_distance_m, {0, 5},
+             "key frame dropped after this way");
+    v.angle("keyframe_angle_deg", keyframe_angle, {0, 90}, "key frame dropped after this turn");
+    v.number("keyframe_share", keyframe_share, {0, 1}, "key frame dropped when less is in view");
+    v.number("min_share", min_share, {0, 1}, "an alignment on less of the points is refused");
+    v.number("photometric_correlation", photometric_correlation, {1, 1e4},
+             "neighbouring brightness residuals that count as one");
+    v.number("surface_correlation", surface_correlation, {1, 1e5},
+             "neighbouring depth residuals that count as one");
+    v.number("weak_direction_ratio", weak_direction_ratio, {1e-6, 1},
+             "surface directions below this part of the strongest are not used");
+    v.number("max_speed_m_s", max_speed_m_s, {0.01, 100}, "faster is a failed alignment");
+    v.angle("max_turn_rate_deg", max_turn_rate, {1, 3600}, "per second; faster is a failure");
+    v.number("coasting_speed_sigma_m_s", coasting_speed_sigma_m_s, {0.001, 100},
+             "change of speed assumed when nothing measures motion");
+    v.angle("coasting_turn_sigma_deg", coasting_turn_sigma, {0.01, 3600},
+            "change of turn rate assumed then, per second");
+  }
+};
+
+}  // namespace colonnade

@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "colonnade/motion/motion_estimator.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "planar_reduction.hpp"
+#include "wheel_odometry.hpp"
+
+namespace colonnade {
+
+const char* name(MotionSource source) {
+  switch (source) {
+    case MotionSource::kNone:
+      return "none";
+    case MotionSource::kOdometry:
+      return "odometry";
+    case MotionSource::kPhotometric:
+      return "photometric";
+    case MotionSource::kPhotometricIcp:
+      return "photometric_icp";
+    case MotionSource::kIcp:
+      return "icp";
+    case MotionSource::kConstantVelocity:
+      return "constant_velocity";
+  }
+  return "unknown";
+}
+
+struct MotionEstimator::Impl {
+  Impl(const MotionOptions& motion_options, std::shared_ptr<CameraTracker> camera_tracker)
+      : options(motion_options), tracker(std::move(camera_tracker)) {}
+
+  MotionOptions options;
+  std::shared_ptr<CameraTracker> tracker;
+  bool has_previous = false;
+  double previous_stamp_s = 0.0;
+  std::optional<OdometryReading> previous_odometry;
+  MountingAtFrame previous_mounting;
+  Pose2 previous_increment;  ///< for constant velocity
+  double previous_dt_s = 0.0;
+  double coasted_s = 0.0;
+
+  bool mayUseOdometry() const { return options.source == "auto" || options.source == "odometry"; }
+  bool mayUseVisual() const { return options.source == "auto" || options.source == "visual"; }
+
+  /// The former velocity in the plane, for frames that nothing else measures.
+  MotionIncrement coast(double dt_s) {
+    MotionIncrement increment;
+    increment.source = MotionSource::kConstantVelocity;
+    coasted_s += dt_s;
+    if (previous_dt_s > 0.0 && coasted_s < 1.0) {
+      const double factor = std::clamp(dt_s / previous_dt_s, 0.0, 5.0);
+      increment.T_previous_robot = {factor * previous_increment.x, factor * previous_increment.y,
+                                    factor * previous_increment.phi};
+    }
+    const double lasting = dt_s > 0.0 ? std::max(1.0, coasted_s / dt_s) : 1.0;
+    const double speed = options.coasting_speed_sigma_m_s * dt_s;
+    const double turn = options.coasting_turn_sigma * dt_s;
+    increment.covariance.diagonal() << speed * speed * lasting + 1e-6,
+        speed * speed * lasting + 1e-6, turn * turn * lasting + 1e-6;
+    return increment;
+  }
+
+  MotionIncrement measure(const Frame& frame, const MountingAtFrame& mounting, double dt_s) {
+    if (mayUseOdometry() && previous_odometry && frame.odometry) {
+      return odometryIncrement(*previous_odometry, *frame.odometry, options);
+    }
+    if (mayUseVisual() && !frame.gray.empty() && !frame.depth_m.empty()) {
+      const CameraMotion& motion = tracker->track(frame);
+      if (motion.source != MotionSource::kNone) {
+        return reduceToPlane(motion, previous_mounting, mounting);
+      }
+    }
+    return coast(dt_s);
+  }
+};
+
+MotionEstimator::MotionEstimator(const MotionOptions& options,
+                                 std::shared_ptr<CameraTracker> tracker)
+    : impl_(std::make_unique<Impl>(options, std::move(tracker))) {}
+MotionEstimator::~MotionEstimator() = default;
+
+MotionIncrement MotionEstimator::increment(const Frame& frame,
+                                           const MountingUncertainty& uncertainty) {
+  Impl& self = *impl_;
+  const MountingAtFrame mounting{frame.T_robot_camera, uncertainty.covariance};
+  MotionIncrement result;
+  if (self.has_previous) {
+    const double dt_s = std::max(0.0, frame.stamp_s - self.previous_stamp_s);
+    result = self.measure(frame, mounting, dt_s);
+    if (result.source != MotionSource::kConstantVelocity) {
+      self.coasted_s = 0.0;
+      self.previous_increment = result.T_previous_robot;
+      self.previous_dt_s = dt_s;
+    }
+  } else if (self.mayUseVisual() && !(self.mayUseOdometry() && frame.odometry)) {
+    self.tracker->track(frame);
+  }
+  self.has_previous = true;
+  self.previous_stamp_s = frame.stamp_s;
+  self.previous_odometry = frame.odometry;
+  self.previous_mounting = mounting;
+  return result;
+}
+
+}  // namespace colonnade

@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "rgbd_pyramid.hpp"
+#include "se3.hpp"
+
+namespace colonnade {
+
+/// What an alignment uses and how far it trusts it.
+struct AlignmentOptions {
+  bool use_photometric = true;
+  bool use_surfaces = true;
+  double photometric_correlation = 8.0;  ///< neighbouring residuals that count as one
+  double surface_correlation = 40.0;
+  double weak_direction_ratio = 0.02;  ///< of the largest eigenvalue, per surface normal matrix
+};
+
+/// A frame prepared to be aligned to.
+struct Reference {
+  RgbdPyramid pyramid;
+  std::vector<std::vector<PhotometricPoint>> photometric;  ///< per pyramid level
+  std::vector<SurfacePoint> surfaces;
+};
+Reference makeReference(RgbdPyramid pyramid);
+
+/// Where the current camera is in the reference, T_reference_current, and how sure that is.
+struct Alignment {
+  Eigen::Isometry3d T_reference_current = Eigen::Isometry3d::Identity();
+  /// Of the error e (metres, radians, current camera's axes) in T_true = T * exp(e).
+  Matrix6 covariance = Matrix6::Zero();
+  double photometric_share = 0.0;  ///< of the reference's points that were compared, 0 to 1
+  double surface_share = 0.0;
+  int photometric_count = 0;
+  int surface_count = 0;
+  double photometric_sigma = 0.0;  ///< brightness levels
+  double surface_sigma = 0.0;      ///< in units of the sensor's noise model
+  double cost = 0.0;               ///< mean robust cost of one residual
+  bool converged = false;
+};
+
+/// Gauss-Newton on brightness (after an affine change) and point-to-plane distance, coarse to fine.
+/// Starts at the guess that fits best at the coarsest level.
+Alignment align(const Reference& reference, const RgbdPyramid& current,
+                const std::vector<Eigen::Isometry3d>& guesses, const AlignmentOptions& options);
+
+}  // namespace colonnade
