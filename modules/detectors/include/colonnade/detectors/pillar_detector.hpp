@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "colonnade/detectors/detection.hpp"
+#include "colonnade/detectors/geometry_options.hpp"
+#include "colonnade/detectors/refined_line.hpp"
+#include "colonnade/frames/frame.hpp"
+
+namespace colonnade {
+
+struct PillarOptions {
+  static constexpr const char* kSection = "Pillars";
+  double vertical_tolerance = radians(4.0);
+  double min_length_px = 50.0;
+  double min_length_bearing_only_px = 100.0;
+  double surface_step_m = 0.08;       ///< larger differences beside the edge are a jump in depth
+  double upright_tolerance_m = 0.06;  ///< of the horizontal distance along the edge
+  double min_pair_width_m = 0.05;
+  double max_pair_width_m = 1.2;
+  double max_pair_width_px = 200.0;
+
+  void visit(OptionVisitor& v) {
+    v.angle("vertical_tolerance_deg", vertical_tolerance, {0.5, 30},
+            "from the projected vertical in the image");
+    v.number("min_length_px", min_length_px, {10, 2000}, "of an edge with range");
+    v.number("min_length_bearing_only_px", min_length_bearing_only_px, {10, 2000},
+             "of an edge whose depth is not known");
+    v.number("surface_step_m", surface_step_m, {0.01, 1}, "step that separates near from far side");
+    v.number("upright_tolerance_m", upright_tolerance_m, {0.01, 1},
+             "change of distance along an upright edge, beyond noise");
+    v.number("min_pair_width_m", min_pair_width_m, {0.01, 5}, "narrowest pillar");
+    v.number("max_pair_width_m", max_pair_width_m, {0.05, 10}, "widest pillar");
+    v.number("max_pair_width_px", max_pair_width_px, {5, 4000}, "widest pillar without range");
+  }
+};
+
+/// Finds edges that are vertical in space (thesis 2015, sections 2.3 to 2.5), whatever the tilt of
+/// the camera, and measures bearing and, where depth agrees along the edge, horizontal range.
+class PillarDetector {
+ public:
+  explicit PillarDetector(const PillarOptions& options = {}, const GeometryOptions& geometry = {},
+                          const LineRefinementOptions& lines = {})
+      : options_(options), geometry_(geometry), lines_(lines) {}
+
+  Detections detect(const Frame& frame, const EdgeLines& edges) const;
+  /// The same from lines that are refined already.
+  Detections detect(const Frame& frame, const RefinedLines& lines) const;
+
+ private:
+  PillarOptions options_;
+  GeometryOptions geometry_;
+  LineRefinementOptions lines_;
+};
+
+}  // namespace colonnade

@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "colonnade/detectors/depth_profile.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "colonnade/detectors/levelled_camera.hpp"
+#include "statistics.hpp"
+
+namespace colonnade {
+namespace {
+
+constexpr double kNearest_m = 0.2;
+constexpr double kFarthest_m = 15.0;
+
+/// Forward distances of all pixels, sorted into (column, band).
+class Bins {
+ public:
+  Bins(int columns, int rows)
+      : rows_(static_cast<std::size_t>(rows)),
+        counts_(static_cast<std::size_t>(columns) * DepthProfile::kBands, 0),
+        values_(counts_.size() * rows_) {}
+
+  void add(int column, int band, float z) {
+    const std::size_t bin =
+        static_cast<std::size_t>(column) * DepthProfile::kBands + static_cast<std::size_t>(band);
+    if (counts_[bin] < rows_) values_[bin * rows_ + counts_[bin]++] = z;
+  }
+
+  void medians(DepthProfile::Column& column, int index, int min_pixels) {
+    all_.clear();
+    for (std::size_t band = 0; band < DepthProfile::kBands; ++band) {
+      const std::size_t bin = static_cast<std::size_t>(index) * DepthProfile::kBands + band;
+      if (static_cast<int>(counts_[bin]) < min_pixels) continue;
+      const auto first = values_.begin() + static_cast<std::ptrdiff_t>(bin * rows_);
+      band_.assign(first, first + static_cast<std::ptrdiff_t>(counts_[bin]));
+      all_.insert(all_.end(), band_.begin(), band_.end());
+      column.band_z[band] = static_cast<double>(medianOf(band_));
+    }
+    column.z = static_cast<double>(medianOf(all_));
+  }
+
+ private:
+  std::size_t rows_;
+  std::vector<std::size_t> counts_;
+  std::vector<float> values_;
+  std::vector<float> band_;
+  std::vector<float> all_;
+};
+
+}  // namespace
+
+DepthProfile makeDepthProfile(const Frame& frame, const DepthProfileOptions& options) {
+  DepthProfile profile;
+  if (frame.depth_m.empty() || frame.depth_m.type() != CV_32FC1) return profile;
+  const LevelledCamera camera(frame);
+  const Eigen::Vector3d axis = frame.T_robot_camera.linear().col(2);
+  const double level = axis.head<2>().norm();
+  constexpr double kLevelEnough = 0.2;
+  if (level < kLevelEnough) return profile;
+  const Eigen::Vector2d forward = axis.head<2>() / level;
+  const Eigen::Vector2d right(forward.y(), -forward.x());
+  profile.R_robot_slice.col(0) = right;
+  profile.R_robot_slice.col(1) = forward;
+  profile.p_robot_camera = camera.centre().head<2>();
+  profile.focal_px = frame.camera.fx_px;
+
+  const int columns = frame.depth_m.cols;
+  const double middle = frame.camera.cx_px;
+  profile.columns.resize(static_cast<std::size_t>(columns));
+  Bins bins(columns, (frame.depth_m.rows + options.row_step - 1) / options.row_step);
+  const double band_height = (options.max_height_m - options.min_height_m) / DepthProfile::kBands;
+  if (band_height <= 0.0) return profile;
+  for (int v = options.row_step / 2; v < frame.depth_m.rows; v += options.row_step) {
+    const auto* depth_m = frame.depth_m.ptr<float>(v);
+    const Eigen::Vector3d first = camera.ray(0.0, v);
+    const Eigen::Vector3d step = camera.ray(1.0, v) - first;
+    for (int u = 0; u < columns; ++u) {
+      const auto depth = static_cast<double>(depth_m[u]);
+      if (!(depth > kNearest_m && depth < kFarthest_m)) continue;  // also NaN
+      const Eigen::Vector3d ray = first + u * step;
+      const double height = camera.height() + depth * ray.z();
+      if (height < options.min_height_m || height >= options.max_height_m) continue;
+      const double ahead = forward.dot(ray.head<2>());
+      if (ahead < 0.1) continue;
+      const double column = middle + profile.focal_px * right.dot(ray.head<2>()) / ahead;
+      const auto index = static_cast<int>(std::lround(column));
+      if (index < 0 || index >= columns) continue;
+      const int band = std::min(static_cast<int>((height - options.min_height_m) / band_height),
+                                DepthProfile::kBands - 1);
+      bins.add(index, band, static_cast<float>(depth * ahead));
+    }
+  }
+  for (int i = 0; i < columns; ++i) {
+    auto& column = profile.columns[static_cast<std::size_t>(i)];
+    column.slope = (i - middle) / profile.focal_px;
+    bins.medians(column, i, options.min_pixels);
+  }
+  return profile;
+}
+
+}  // namespace colonnade

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cmath>
+#include <opencv2/core/mat.hpp>
+#include <optional>
+
+#include "colonnade/detectors/levelled_camera.hpp"
+
+namespace colonnade {
+
+/// A point seen in depth, levelled.
+struct SeenPoint {
+  Eigen::Vector3d p_robot;
+  double depth_m = 0.0;
+  double range_m = 0.0;  ///< horizontal distance from the camera
+  double height() const { return p_robot.z(); }
+};
+
+/// Depth pixels as points in the robot's axes. Pixels outside the image, not measured, not finite
+/// or beyond what a structured-light camera can know give nothing.
+class DepthView {
+ public:
+  DepthView(const Frame& frame, const LevelledCamera& camera) : camera_(camera) {
+    const bool usable = frame.depth_m.type() == CV_32FC1 &&
+                        (frame.gray.empty() || frame.depth_m.size() == frame.gray.size());
+    if (usable) depth_m_ = frame.depth_m;
+  }
+  bool empty() const { return depth_m_.empty(); }
+
+  std::optional<SeenPoint> at(int u, int v) const {
+    if (u < 0 || v < 0 || u >= depth_m_.cols || v >= depth_m_.rows) return std::nullopt;
+    const double depth_m = static_cast<double>(depth_m_.at<float>(v, u));
+    constexpr double kNearest_m = 0.2;
+    constexpr double kFarthest_m = 15.0;
+    if (!(depth_m > kNearest_m && depth_m < kFarthest_m)) return std::nullopt;  // also NaN
+    const Eigen::Vector3d offset = depth_m * camera_.ray(u, v);
+    return SeenPoint{camera_.centre() + offset, depth_m, std::hypot(offset.x(), offset.y())};
+  }
+  std::optional<SeenPoint> at(const Eigen::Vector2d& p_px) const {
+    if (!p_px.allFinite() || p_px.cwiseAbs().maxCoeff() > 1e6) return std::nullopt;
+    return at(static_cast<int>(std::lround(p_px.x())), static_cast<int>(std::lround(p_px.y())));
+  }
+
+ private:
+  const LevelledCamera& camera_;
+  cv::Mat depth_m_;
+};
+
+}  // namespace colonnade

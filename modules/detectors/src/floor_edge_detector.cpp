@@ -1,0 +1,197 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "colonnade/detectors/floor_edge_detector.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "colonnade/detectors/depth_noise.hpp"
+#include "colonnade/detectors/levelled_camera.hpp"
+#include "colour_sampling.hpp"
+#include "depth_view.hpp"
+#include "floor_line.hpp"
+
+namespace colonnade {
+namespace {
+
+/// What depth sees where a wall would stand on the line.
+struct WallVotes {
+  int wall = 0;
+  int nearer = 0;   ///< something stands before the line: it is above the floor
+  int beyond = 0;   ///< the floor goes on
+  int unknown = 0;  ///< within the reach of depth, but not measured
+  int seen() const { return wall + nearer + beyond; }
+};
+
+WallVotes askDepth(const DepthView& depth, const LevelledCamera& camera, const FloorLine& line,
+                   const FloorEdgeOptions& options, const GeometryOptions& geometry) {
+  WallVotes votes;
+  constexpr int kPlaces = 40;
+  for (int i = 0; i <= kPlaces; ++i) {
+    const Eigen::Vector2d p_robot =
+        line.p_robot_a + (line.p_robot_b - line.p_robot_a) * i / kPlaces;
+    const double distance_m = (p_robot - camera.centre().head<2>()).norm();
+    const auto p_px = camera.project({p_robot.x(), p_robot.y(), options.wall_height_m});
+    if (!p_px || distance_m > geometry.max_depth_m) continue;
+    const auto point = depth.at(*p_px);
+    if (!point) {
+      ++votes.unknown;
+      continue;
+    }
+    // A tilt error moves floor points by (D^2 + H^2) / H per radian.
+    const double tilt_m =
+        geometry.tilt_sigma * (distance_m * distance_m / camera.height() + camera.height());
+    const double tolerance_m =
+        options.wall_tolerance_m + 2.0 * kinectDepthSigma(point->depth_m) + tilt_m;
+    // Where the floor would be seen there if it went on; the wall must be told from it.
+    const double room_m = distance_m * options.wall_height_m /
+                          std::max(camera.height() - options.wall_height_m, 1e-3);
+    const double limit_m =
+        camera.height() > options.wall_height_m ? std::min(tolerance_m, 0.5 * room_m) : tolerance_m;
+    const double difference_m = point->range_m - distance_m;
+    if (difference_m > limit_m) {
+      ++votes.beyond;
+    } else if (difference_m < -tolerance_m) {
+      ++votes.nearer;
+    } else {
+      ++votes.wall;
+    }
+  }
+  return votes;
+}
+
+std::string reasonToRefuse(const WallVotes& votes, const FloorLine& line, bool has_depth,
+                           const FloorEdgeOptions& options) {
+  constexpr int kEnough = 6;
+  if (line.R(0, 0) > options.max_direction_sigma * options.max_direction_sigma ||
+      line.R(1, 1) > options.max_distance_sigma_m * options.max_distance_sigma_m) {
+    return "too uncertain";
+  }
+  if (!has_depth) return "";
+  if (votes.seen() < kEnough) return votes.unknown >= kEnough ? "no depth to confirm it" : "";
+  if (votes.wall >= options.min_wall_share * votes.seen()) return "";
+  return votes.beyond >= votes.nearer ? "floor goes on behind it" : "above the floor";
+}
+
+bool isNearVertical(const LevelledCamera& camera, const RefinedLine& line, double tolerance) {
+  const Eigen::Vector2d along = (line.at(line.end) - line.at(line.begin)).normalized();
+  const Eigen::Vector2d down = camera.downDirection(line.at(0.5 * (line.begin + line.end)));
+  return std::abs(along.dot(down)) > std::cos(tolerance);
+}
+
+Detection toDetection(const Frame& frame, const LevelledCamera& camera, const RefinedLine& line,
+                      const FloorLine& floor_line) {
+  Detection detection;
+  detection.measurement.kind = LandmarkKind::kFloorEdge;
+  detection.measurement.z = floor_line.z;
+  detection.measurement.R = floor_line.R;
+  detection.measurement.p_robot_camera = camera.centre().head<2>();
+  detection.a_px = line.at(floor_line.begin);
+  detection.b_px = line.at(floor_line.end);
+  detection.p_robot_a = floor_line.p_robot_a;
+  detection.p_robot_b = floor_line.p_robot_b;
+  // The far side is the one away from the foot of the camera: up in the image.
+  Eigen::Vector2d across =
+      line.steep ? Eigen::Vector2d(1.0, -line.slope) : Eigen::Vector2d(-line.slope, 1.0);
+  const Eigen::Vector2d middle = line.at(0.5 * (floor_line.begin + floor_line.end));
+  const int far = across.dot(camera.downDirection(middle)) < 0.0 ? 1 : -1;
+  detection.appearance.gradient_sign = far * line.gradient_sign;
+  detection.appearance.left = meanColourBeside(frame, line, floor_line.begin, floor_line.end, -far);
+  detection.appearance.right = meanColourBeside(frame, line, floor_line.begin, floor_line.end, far);
+  return detection;
+}
+
+double length(const Detection& detection) {
+  return (detection.p_robot_b - detection.p_robot_a).norm();
+}
+
+/// Largest distance of the ends of `a` from the line of `b`.
+double apart(const Detection& a, const Detection& b) {
+  const auto& z = b.measurement.z;
+  const Eigen::Vector2d normal(std::cos(z[0]), std::sin(z[0]));
+  const auto off = [&](const Eigen::Vector2d& p_robot) {
+    return std::abs(normal.dot(p_robot - b.measurement.p_robot_camera) - z[1]);
+  };
+  return std::max(off(a.p_robot_a), off(a.p_robot_b));
+}
+
+double overlap(const Detection& a, const Detection& b) {
+  const Eigen::Vector2d along = (b.p_robot_b - b.p_robot_a).normalized();
+  const double s = along.dot(a.p_robot_a - b.p_robot_a);
+  const double t = along.dot(a.p_robot_b - b.p_robot_a);
+  return std::min(std::max(s, t), length(b)) - std::max(std::min(s, t), 0.0);
+}
+
+/// Takes `other` into the extent of `kept`, along its line.
+void extend(Detection& kept, const Detection& other) {
+  const Eigen::Vector2d origin = kept.p_robot_a;
+  const Eigen::Vector2d along = (kept.p_robot_b - kept.p_robot_a).normalized();
+  double low = 0.0;
+  double high = length(kept);
+  for (const auto& p_robot : {other.p_robot_a, other.p_robot_b}) {
+    low = std::min(low, along.dot(p_robot - origin));
+    high = std::max(high, along.dot(p_robot - origin));
+  }
+  kept.p_robot_a = origin + low * along;
+  kept.p_robot_b = origin + high * along;
+}
+
+/// One detection for each line: pieces of one line join the longest, and of parallel edges close
+/// together (skirting boards) the nearest to the camera stays, where wall and floor touch.
+Detections contactEdges(Detections found, const FloorEdgeOptions& options) {
+  std::sort(found.begin(), found.end(), [](const Detection& a, const Detection& b) {
+    return length(a) > length(b) ||
+           (length(a) == length(b) && a.measurement.z[0] < b.measurement.z[0]);
+  });
+  Detections kept;
+  for (auto& detection : found) {
+    bool taken = false;
+    for (auto& longer : kept) {
+      if (!detection.accepted() || !longer.accepted()) continue;
+      const double apart_m = apart(detection, longer);
+      const double one_line_m = 0.04 + 2.0 * std::sqrt(detection.measurement.R(1, 1)) / 3.0;
+      if (apart_m < std::min(one_line_m, 0.1)) {
+        extend(longer, detection);
+        taken = true;
+      } else if (apart_m < options.parallel_m &&
+                 overlap(detection, longer) > 0.5 * length(detection)) {
+        const bool nearer = detection.measurement.z[1] < longer.measurement.z[1];
+        if (nearer && length(detection) > 0.5 * length(longer)) {
+          longer.refusal = "a nearer edge runs along it";
+        } else {
+          detection.refusal = "a nearer edge runs along it";
+        }
+      }
+      if (taken) break;
+    }
+    if (!taken) kept.push_back(std::move(detection));
+  }
+  return kept;
+}
+
+}  // namespace
+
+Detections FloorEdgeDetector::detect(const Frame& frame, const EdgeLines& edges) const {
+  return detect(frame, refineLines(frame.gray, edges, lines_));
+}
+
+Detections FloorEdgeDetector::detect(const Frame& frame, const RefinedLines& lines) const {
+  if (frame.gray.empty()) return {};
+  const LevelledCamera camera(frame);
+  const DepthView depth(frame, camera);
+  Detections found;
+  for (const auto& line : lines) {
+    if (isNearVertical(camera, line, options_.from_vertical)) continue;
+    const auto floor_line = mapToFloor(camera, line, options_, geometry_);
+    if (!floor_line) continue;
+    Detection detection = toDetection(frame, camera, line, *floor_line);
+    if ((detection.b_px - detection.a_px).norm() < options_.min_length_px) continue;
+    if (length(detection) < options_.min_length_m) continue;
+    const WallVotes votes = askDepth(depth, camera, *floor_line, options_, geometry_);
+    detection.refusal = reasonToRefuse(votes, *floor_line, !depth.empty(), options_);
+    found.push_back(std::move(detection));
+  }
+  return contactEdges(std::move(found), options_);
+}
+
+}  // namespace colonnade

@@ -1,0 +1,132 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "colonnade/detectors/pillar_detector.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "colonnade/detectors/levelled_camera.hpp"
+#include "colour_sampling.hpp"
+#include "pillar_pairs.hpp"
+#include "pillar_range.hpp"
+
+namespace colonnade {
+namespace {
+
+struct Bearing {
+  double angle = 0.0;
+  double variance = 0.0;
+};
+
+/// Direction of the vertical plane through the optical centre and one pixel of the line: equation
+/// 13 of the 2015 thesis for a levelled camera. A tilt error t turns it by t * tan(elevation).
+Bearing bearingAt(const LevelledCamera& camera, const RefinedLine& line, double s,
+                  const GeometryOptions& geometry) {
+  const Eigen::Vector3d here = camera.ray(line.at(s));
+  const Eigen::Vector3d beside = camera.ray(line.at(s) + Eigen::Vector2d(1.0, 0.0));
+  const double angle = std::atan2(here.y(), here.x());
+  const double per_pixel = wrapAngle(std::atan2(beside.y(), beside.x()) - angle);
+  const double pixels = line.variance(s) + geometry.line_sigma_px * geometry.line_sigma_px;
+  const double tilt = geometry.tilt_sigma * here.z() / here.head<2>().norm();
+  return {angle, per_pixel * per_pixel * pixels + tilt * tilt};
+}
+
+/// The place of the extent where the bearing is best known: near the horizon and near the middle.
+Bearing bestBearing(const LevelledCamera& camera, const RefinedLine& line,
+                    const GeometryOptions& geometry) {
+  constexpr int kPlaces = 16;
+  Bearing best = bearingAt(camera, line, line.begin, geometry);
+  for (int i = 1; i <= kPlaces; ++i) {
+    const double s = line.begin + (line.end - line.begin) * i / kPlaces;
+    const Bearing bearing = bearingAt(camera, line, s, geometry);
+    if (bearing.variance < best.variance) best = bearing;
+  }
+  return best;
+}
+
+double angleFromVertical(const LevelledCamera& camera, const RefinedLine& line) {
+  const Eigen::Vector2d along = (line.at(line.end) - line.at(line.begin)).normalized();
+  const Eigen::Vector2d down = camera.downDirection(line.at(0.5 * (line.begin + line.end)));
+  return std::acos(std::clamp(std::abs(along.dot(down)), 0.0, 1.0));
+}
+
+Measurement toMeasurement(const LevelledCamera& camera, const Bearing& bearing,
+                          const PillarRange& range) {
+  Measurement m;
+  m.kind = LandmarkKind::kPillarEdge;
+  m.p_robot_camera = camera.centre().head<2>();
+  const bool has_range = range.verdict == PillarRange::Verdict::kMeasured;
+  m.z.resize(has_range ? 2 : 1);
+  m.R.setZero(m.z.size(), m.z.size());
+  m.z[0] = bearing.angle;
+  m.R(0, 0) = bearing.variance;
+  if (has_range) {
+    m.z[1] = range.range_m;
+    m.R(1, 1) = range.sigma_m * range.sigma_m;
+  }
+  return m;
+}
+
+/// Two pieces of one edge, one above the other, are one landmark: the longer piece speaks.
+bool isSameLandmark(const Detection& a, const Detection& b) {
+  const auto& m = a.measurement;
+  const auto& n = b.measurement;
+  if (a.appearance.gradient_sign != b.appearance.gradient_sign) return false;
+  const double apart = std::abs(wrapAngle(m.z[0] - n.z[0]));
+  if (apart > std::max(radians(0.15), 2.0 * std::sqrt(std::max(m.R(0, 0), n.R(0, 0)))))
+    return false;
+  if (!m.hasRange() || !n.hasRange()) return true;
+  return std::abs(m.z[1] - n.z[1]) < 0.1 + 3.0 * std::sqrt(m.R(1, 1) + n.R(1, 1));
+}
+
+std::string reasonToRefuse(PillarRange::Verdict verdict, double length_px,
+                           const PillarOptions& options) {
+  switch (verdict) {
+    case PillarRange::Verdict::kNotUpright:
+      return "not upright in space";
+    case PillarRange::Verdict::kOnFloor:
+      return "lies on the floor";
+    case PillarRange::Verdict::kUnknown:
+      return length_px < options.min_length_bearing_only_px ? "short and without depth" : "";
+    case PillarRange::Verdict::kMeasured:
+      break;
+  }
+  return "";
+}
+
+}  // namespace
+
+Detections PillarDetector::detect(const Frame& frame, const EdgeLines& edges) const {
+  return detect(frame, refineLines(frame.gray, edges, lines_));
+}
+
+Detections PillarDetector::detect(const Frame& frame, const RefinedLines& lines) const {
+  Detections detections;
+  if (frame.gray.empty()) return detections;
+  const LevelledCamera camera(frame);
+  const DepthView depth(frame, camera);
+  for (const auto& line : lines) {  // longest first
+    if (!line.steep || line.length() < options_.min_length_px) continue;
+    if (angleFromVertical(camera, line) > options_.vertical_tolerance) continue;
+    const PillarRange range = measurePillarRange(depth, line, options_, geometry_);
+    Detection detection;
+    detection.measurement = toMeasurement(camera, bestBearing(camera, line, geometry_), range);
+    detection.a_px = line.at(line.begin);
+    detection.b_px = line.at(line.end);
+    detection.appearance.gradient_sign = line.gradient_sign;
+    detection.appearance.left = meanColourBeside(frame, line, line.begin, line.end, -1);
+    detection.appearance.right = meanColourBeside(frame, line, line.begin, line.end, 1);
+    detection.refusal = reasonToRefuse(range.verdict, line.length(), options_);
+    if (detection.accepted() &&
+        std::any_of(detections.begin(), detections.end(), [&](const Detection& longer) {
+          return longer.accepted() && isSameLandmark(detection, longer);
+        })) {
+      continue;
+    }
+    detections.push_back(detection);
+  }
+  pairPillars(detections, options_);
+  return detections;
+}
+
+}  // namespace colonnade

@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "colonnade/detectors/pillar_detector.hpp"
+#include "depth_view.hpp"
+
+namespace colonnade {
+
+/// What depth says about a steep line in the image.
+struct PillarRange {
+  enum class Verdict {
+    kUnknown,  ///< too little depth beside it, or not clear which side it belongs to
+    kMeasured,
+    kNotUpright,  ///< the distance changes along it
+    kOnFloor      ///< it lies on the floor: a joint, a shadow or a reflection
+  };
+  Verdict verdict = Verdict::kUnknown;
+  double range_m = 0.0;  ///< horizontal, from the camera
+  double sigma_m = 0.0;
+};
+
+PillarRange measurePillarRange(const DepthView& depth, const RefinedLine& line,
+                               const PillarOptions& options, const GeometryOptions& geometry);
+
+}  // namespace colonnade

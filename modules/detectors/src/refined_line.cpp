@@ -1,0 +1,270 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "colonnade/detectors/refined_line.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <tuple>
+
+namespace colonnade {
+namespace {
+
+struct Sample {
+  double s = 0.0;       ///< along
+  double across = 0.0;  ///< sub-pixel
+};
+using Samples = std::vector<Sample>;
+
+struct Straight {
+  double middle = 0.0;
+  double offset = 0.0;
+  double slope = 0.0;
+  double across(double s) const { return offset + slope * (s - middle); }
+};
+
+/// The image seen along steep (s = row) or flat (s = column) lines.
+class Walker {
+ public:
+  Walker(const cv::Mat& gray, const cv::Mat& edges, bool steep)
+      : gray_(gray), edges_(edges), steep_(steep) {}
+
+  int length() const { return steep_ ? edges_.rows : edges_.cols; }
+  int width() const { return steep_ ? edges_.cols : edges_.rows; }
+  int edge(int s, int t) const {
+    return steep_ ? edges_.at<std::uint8_t>(s, t) : edges_.at<std::uint8_t>(t, s);
+  }
+
+  /// Edge pixels within `reach` of the line whose gradient points along `sign` across it: the one
+  /// nearest to the line in each step.
+  Samples collect(const Straight& line, double reach, int sign) const {
+    Samples samples;
+    for (int s = 1; s + 1 < length(); ++s) {
+      const double centre = line.across(s);
+      const int low = std::max(2, static_cast<int>(std::ceil(std::max(centre - reach, 0.0))));
+      const int high = static_cast<int>(std::floor(std::min(centre + reach, width() - 3.0)));
+      double nearest = 2.0 * reach;
+      std::optional<Sample> best;
+      for (int t = low; t <= high; ++t) {
+        const int code = edge(s, t);
+        if (code == 0 || signAcross(code - 1) != sign) continue;
+        const double distance = std::abs(t - centre);
+        if (distance >= nearest) continue;
+        nearest = distance;
+        best = Sample{static_cast<double>(s), t + peakOffset(s, t)};
+      }
+      if (best) samples.push_back(*best);
+    }
+    return samples;
+  }
+
+ private:
+  /// +1, -1 or 0: which way across the line a gradient of that sector points.
+  int signAcross(int sector) const {
+    static constexpr int kSteep[8] = {1, 1, 0, -1, -1, -1, 0, 1};
+    static constexpr int kFlat[8] = {0, 1, 1, 1, 0, -1, -1, -1};
+    return steep_ ? kSteep[sector] : kFlat[sector];
+  }
+
+  int gray(int s, int t) const {
+    return steep_ ? gray_.at<std::uint8_t>(s, t) : gray_.at<std::uint8_t>(t, s);
+  }
+
+  double gradient(int s, int t) const {
+    const int difference = gray(s - 1, t + 1) - gray(s - 1, t - 1) +
+                           2 * (gray(s, t + 1) - gray(s, t - 1)) + gray(s + 1, t + 1) -
+                           gray(s + 1, t - 1);
+    return std::abs(difference);
+  }
+
+  /// Vertex of the parabola through three gradient magnitudes, at most half a pixel away.
+  double peakOffset(int s, int t) const {
+    const double before = gradient(s, t - 1);
+    const double here = gradient(s, t);
+    const double after = gradient(s, t + 1);
+    const double curvature = before - 2.0 * here + after;
+    if (curvature >= 0.0) return 0.0;
+    return std::clamp(0.5 * (before - after) / curvature, -0.5, 0.5);
+  }
+
+  const cv::Mat& gray_;
+  const cv::Mat& edges_;
+  bool steep_;
+};
+
+/// Least squares over samples; the covariance is per unit variance of one sample.
+std::optional<Straight> leastSquares(const Samples& samples, Eigen::Matrix2d* covariance) {
+  if (samples.size() < 3) return std::nullopt;
+  const auto n = static_cast<double>(samples.size());
+  Straight line;
+  double mean = 0.0;
+  for (const auto& sample : samples) {
+    line.middle += sample.s / n;
+    mean += sample.across / n;
+  }
+  double ss = 0.0;
+  double st = 0.0;
+  for (const auto& sample : samples) {
+    ss += (sample.s - line.middle) * (sample.s - line.middle);
+    st += (sample.s - line.middle) * (sample.across - mean);
+  }
+  if (ss <= 0.0) return std::nullopt;
+  line.offset = mean;
+  line.slope = st / ss;
+  if (covariance) *covariance << 1.0 / n, 0.0, 0.0, 1.0 / ss;
+  return line;
+}
+
+/// The line through two samples that most others agree with; pairs are taken at fixed places.
+std::optional<Straight> consensus(const Samples& samples, double inlier_px) {
+  const std::size_t n = samples.size();
+  if (n < 8) return std::nullopt;
+  std::optional<Straight> best;
+  int best_count = 0;
+  constexpr std::size_t kPlaces = 7;
+  for (std::size_t i = 0; i < kPlaces; ++i) {
+    for (std::size_t j = i + 2; j < kPlaces; ++j) {
+      const auto& a = samples[i * (n - 1) / (kPlaces - 1)];
+      const auto& b = samples[j * (n - 1) / (kPlaces - 1)];
+      if (b.s - a.s < 8.0) continue;
+      const Straight line{a.s, a.across, (b.across - a.across) / (b.s - a.s)};
+      int count = 0;
+      for (const auto& sample : samples) {
+        if (std::abs(sample.across - line.across(sample.s)) < inlier_px) ++count;
+      }
+      if (count > best_count) {
+        best_count = count;
+        best = line;
+      }
+    }
+  }
+  return best;
+}
+
+Samples within(const Samples& samples, const Straight& line, double reach) {
+  Samples kept;
+  std::copy_if(samples.begin(), samples.end(), std::back_inserter(kept), [&](const Sample& sample) {
+    return std::abs(sample.across - line.across(sample.s)) <= reach;
+  });
+  return kept;
+}
+
+/// Splits samples, ordered along the line, where the gap is too wide.
+std::vector<Samples> runs(const Samples& samples, const LineRefinementOptions& options) {
+  std::vector<Samples> result;
+  for (const auto& sample : samples) {
+    if (result.empty() || sample.s - result.back().back().s > options.max_gap_px) {
+      result.emplace_back();
+    }
+    result.back().push_back(sample);
+  }
+  return result;
+}
+
+std::optional<RefinedLine> fitRun(Samples samples, bool steep, int sign,
+                                  const LineRefinementOptions& options) {
+  Eigen::Matrix2d unit;
+  for (int round = 0; round < 2; ++round) {
+    const auto line = leastSquares(samples, &unit);
+    if (!line) return std::nullopt;
+    samples = within(samples, *line, options.inlier_px);
+  }
+  const auto line = leastSquares(samples, &unit);
+  if (!line) return std::nullopt;
+  double squares = 0.0;
+  for (const auto& sample : samples) {
+    const double residual = sample.across - line->across(sample.s);
+    squares += residual * residual;
+  }
+  constexpr double kLeastSigma_px = 0.15;
+  const auto n = static_cast<double>(samples.size());
+  const double variance = std::max(kLeastSigma_px * kLeastSigma_px, squares / (n - 2.0 + 1e-9));
+  RefinedLine result;
+  result.steep = steep;
+  result.middle = line->middle;
+  result.offset = line->offset;
+  result.slope = line->slope;
+  result.covariance = variance * options.correlated_samples * unit;
+  result.begin = samples.front().s;
+  result.end = samples.back().s;
+  result.gradient_sign = sign;
+  result.samples = static_cast<int>(samples.size());
+  const double steps = result.end - result.begin + 1.0;
+  if (result.length() < options.min_length_px || n < options.min_support * steps) {
+    return std::nullopt;
+  }
+  return result;
+}
+
+/// Which way the gradient points in the image, roughly.
+Eigen::Vector2d gradientDirection(const RefinedLine& line) {
+  const Eigen::Vector2d normal =
+      line.steep ? Eigen::Vector2d(1.0, -line.slope) : Eigen::Vector2d(-line.slope, 1.0);
+  return line.gradient_sign * normal.normalized();
+}
+
+/// `line` says nothing that the longer `kept` does not say.
+bool isDuplicate(const RefinedLine& line, const RefinedLine& kept, double duplicate_px) {
+  const Eigen::Vector2d normal = gradientDirection(kept);
+  if (normal.dot(gradientDirection(line)) < 0.5) return false;
+  const Eigen::Vector2d a = kept.at(kept.begin);
+  const Eigen::Vector2d along = (kept.at(kept.end) - a).normalized();
+  double low = 1e9;
+  double high = -1e9;
+  for (const double s : {line.begin, line.end}) {
+    const Eigen::Vector2d offset = line.at(s) - a;
+    if (std::abs(normal.dot(offset)) > duplicate_px) return false;
+    low = std::min(low, along.dot(offset));
+    high = std::max(high, along.dot(offset));
+  }
+  const double overlap = std::min(high, kept.length()) - std::max(low, 0.0);
+  return overlap > 0.4 * (high - low);
+}
+
+void refineSeed(const cv::Mat& gray, const cv::Mat& edges, const HoughLine& seed,
+                const LineRefinementOptions& options, RefinedLines& lines) {
+  const double theta = radians(seed.theta_index);
+  const double c = std::cos(theta);
+  const double s = std::sin(theta);
+  const bool steep = std::abs(c) >= std::abs(s);
+  const Straight guess{0.0, seed.rho_bin / (steep ? c : s), steep ? -s / c : -c / s};
+  const Walker walker(gray, edges, steep);
+  for (const int sign : {1, -1}) {
+    const auto agreed =
+        consensus(walker.collect(guess, options.search_px, sign), options.inlier_px);
+    if (!agreed) continue;
+    auto near = walker.collect(*agreed, 2.0 * options.inlier_px, sign);
+    const auto fitted = leastSquares(within(near, *agreed, options.inlier_px), nullptr);
+    if (!fitted) continue;
+    for (auto& run : runs(within(near, *fitted, 1.5 * options.inlier_px), options)) {
+      if (run.back().s - run.front().s < 0.7 * options.min_length_px) continue;
+      if (auto line = fitRun(std::move(run), steep, sign, options)) lines.push_back(*line);
+    }
+  }
+}
+
+}  // namespace
+
+RefinedLines refineLines(const cv::Mat& gray, const EdgeLines& edges,
+                         const LineRefinementOptions& options) {
+  if (gray.empty() || gray.type() != CV_8UC1 || edges.edges.size() != gray.size()) return {};
+  RefinedLines lines;
+  for (const auto& seed : edges.lines) refineSeed(gray, edges.edges, seed, options, lines);
+  const auto rank = [](const RefinedLine& line) {
+    return std::tuple(-line.length(), line.steep, line.offset, line.begin);
+  };
+  std::sort(lines.begin(), lines.end(),
+            [&](const RefinedLine& a, const RefinedLine& b) { return rank(a) < rank(b); });
+  RefinedLines kept;
+  for (const auto& line : lines) {
+    if (std::none_of(kept.begin(), kept.end(), [&](const RefinedLine& longer) {
+          return isDuplicate(line, longer, options.duplicate_px);
+        })) {
+      kept.push_back(line);
+    }
+  }
+  return kept;
+}
+
+}  // namespace colonnade
