@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <limits>
 
 #include "colonnade/base/angle.hpp"
@@ -156,7 +157,7 @@ TEST(EkfSlam, BearingsFromTwoPlacesMakeALandmarkThatSettles) {
   const auto id = filter.addLandmark(clone, first, look());
   ASSERT_TRUE(id);
   filter.remove(clone);
-  for (int i = 0; i < 10; ++i) {
+  for (int i = 0; i < 14; ++i) {
     filter.predict({0.1, 0.0, 0.02}, Q);
     const Match match{*id, look()};
     EXPECT_TRUE(filter.update({&match, 1}).front());
@@ -198,7 +199,7 @@ double finalNees(bool invariant) {
   double sum = 0.0;
   const int runs = 30;
   for (int run = 0; run < runs; ++run) {
-    SimulatedHall hall(static_cast<unsigned>(100 + run));
+    SimulatedHall hall(static_cast<unsigned>(100 + run), 3.0);
     FilterOptions options;
     options.invariant = invariant;
     EkfSlam filter(options);
@@ -209,6 +210,7 @@ double finalNees(bool invariant) {
 }
 
 TEST(Consistency, TheInvariantFilterStaysHonestWhereThePlainOneDoesNot) {
+  // Three times the noise of the other tests: corrections are no longer small.
   const double invariant = finalNees(true);
   const double plain = finalNees(false);
   ::testing::Test::RecordProperty("nees_invariant", std::to_string(invariant));

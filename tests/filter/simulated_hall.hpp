@@ -16,7 +16,8 @@ namespace colonnade::testing {
 /// estimator itself is judged in.
 class SimulatedHall {
  public:
-  explicit SimulatedHall(unsigned seed) : random_(seed) {
+  explicit SimulatedHall(unsigned seed, double noise_scale = 1.0)
+      : noise_scale_(noise_scale), random_(seed) {
     for (int i = 0; i < 14; ++i) {
       const double angle = 2.0 * kPi * i / 14.0;
       points_.emplace_back(6.0 * std::cos(angle) + 0.5, 6.0 * std::sin(angle) + 3.0);
@@ -25,7 +26,7 @@ class SimulatedHall {
 
   void step(EkfSlam& filter) {
     const Pose2 u{0.15, 0.0, 0.05};
-    const Eigen::Vector3d sigma(0.03, 0.01, radians(1.5));
+    const Eigen::Vector3d sigma = noise_scale_ * Eigen::Vector3d(0.03, 0.01, radians(1.5));
     truth_ = truth_ * Pose2{u.x + sigma(0) * normal(), u.y + sigma(1) * normal(),
                             u.phi + sigma(2) * normal()};
     filter.predict(u, sigma.cwiseAbs2().asDiagonal());
@@ -51,7 +52,9 @@ class SimulatedHall {
   double normal() { return normal_(random_); }
 
   void see(EkfSlam& filter, int key, LandmarkKind kind, BlockKind block_kind,
-           const BlockVector& block, const Eigen::Vector2d& sigma, std::vector<Match>& matches) {
+           const BlockVector& block, const Eigen::Vector2d& unit_sigma,
+           std::vector<Match>& matches) {
+    const Eigen::Vector2d sigma = noise_scale_ * unit_sigma;
     Measurement m;
     m.kind = kind;
     m.z = Eigen::Vector2d(0.0, 1.0);
@@ -68,6 +71,7 @@ class SimulatedHall {
       known_[key] = *id;
   }
 
+  double noise_scale_;
   std::mt19937 random_;
   std::normal_distribution<double> normal_{0.0, 1.0};
   std::vector<Eigen::Vector2d> points_;

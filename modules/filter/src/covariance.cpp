@@ -3,7 +3,7 @@
 #include "colonnade/filter/covariance.hpp"
 
 #include <Eigen/Cholesky>
-#include <algorithm>
+#include <cmath>
 
 #include "colonnade/base/angle.hpp"
 
@@ -21,30 +21,44 @@ void wrapDirections(State& state) {
   }
 }
 
-/// x <- the world turned by dx's heading about its origin, then the rest of dx added.
-void retract(State& state, const Eigen::VectorXd& dx, bool invariant) {
-  if (!invariant) {
-    state.x += dx;
-    wrapDirections(state);
-    return;
-  }
+/// The left Jacobian of SE(2): what a displacement becomes when it is spread over a turn (Sola et
+/// al., arXiv 1812.01537, eq. 158). Without it a point that should stay where it is, because turn
+/// and displacement cancel, creeps towards the origin by half the squared turn in every step.
+Eigen::Matrix2d spreadOverTurn(double turn) {
+  // Taylor approximation below 1e-4 rad: the next terms are turn^2 / 6 and turn^3 / 24.
+  const bool small = std::abs(turn) < 1e-4;
+  const double s = small ? 1.0 - turn * turn / 6.0 : std::sin(turn) / turn;
+  const double c = small ? 0.5 * turn : (1.0 - std::cos(turn)) / turn;
+  return (Eigen::Matrix2d() << s, -c, c, s).finished();
+}
+
+/// x <- exp(xi) x: the whole world turned about its origin by dx's heading, with what the turn does
+/// not explain, dx - G(x) dphi, spread over it.
+void retractInvariant(State& state, const Eigen::VectorXd& dx) {
   const double turn = dx(2);
   const Eigen::VectorXd rest = dx - worldTurn(state) * turn;
   const Eigen::Matrix2d R = Eigen::Rotation2Dd(turn).toRotationMatrix();
-  const auto turnPoint = [&](int offset) {
-    state.x.segment<2>(offset) = (R * state.x.segment<2>(offset)).eval();
+  const Eigen::Matrix2d V = spreadOverTurn(turn);
+  const auto move = [&](int offset, int size) {
+    auto p = state.x.segment<2>(offset);
+    p = (R * p + V * rest.segment<2>(offset)).eval();
+    if (size >= 3) state.x(offset + 2) += turn + rest(offset + 2);
+    if (size == 4) state.x(offset + 3) += rest(offset + 3);
   };
-  turnPoint(0);
-  state.x(2) += turn;
+  move(0, 3);
   for (const Block& block : state.blocks) {
-    if (block.block_kind == BlockKind::kAxis) {
-      state.x(block.offset) += turn;
-      continue;
-    }
-    turnPoint(block.offset);
-    if (block.size() >= 3) state.x(block.offset + 2) += turn;
+    if (block.block_kind == BlockKind::kAxis)
+      state.x(block.offset) += dx(block.offset);
+    else
+      move(block.offset, block.size());
   }
-  state.x += rest;
+}
+
+void retract(State& state, const Eigen::VectorXd& dx, bool invariant) {
+  if (invariant)
+    retractInvariant(state, dx);
+  else
+    state.x += dx;
   wrapDirections(state);
 }
 
@@ -107,12 +121,9 @@ bool correct(State& state, const SparseJacobian& H, const Eigen::VectorXd& nu,
   state.P.selfadjointView<Eigen::Lower>().rankUpdate(W, -1.0);
   mirrorLowerTriangle(state.P);
 
-  if (!invariant) {
-    retract(state, dx, false);
-    return true;
-  }
   const Eigen::VectorXd G_before = worldTurn(state);
-  retract(state, dx, true);
+  retract(state, dx, invariant);
+  if (!invariant) return true;
   transport(state.P, worldTurn(state) - G_before);
   mirrorLowerTriangle(state.P);
   return true;
