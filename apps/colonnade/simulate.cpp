@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "colonnade/base/text.hpp"
+#include "colonnade/simulation/simulator.hpp"
+#include "verbs.hpp"
+
+namespace colonnade {
+namespace {
+
+struct SimulateArguments {
+  std::string world;
+  std::string log;
+  std::vector<std::string> statements;  ///< --set Section.key=value and its shorthands
+  bool overwrite = false;
+  SimulationOptions options;
+};
+
+/// "camera.rate_hz=5" -> the statement "camera rate_hz=5".
+std::string statementOf(const std::string& setting) {
+  const auto dot = setting.find('.');
+  if (dot == std::string::npos || setting.find('=', dot) == std::string::npos) {
+    throw Error("--set " + setting + ": write it as section.key=value, such as camera.rate_hz=5",
+                ExitCode::kUsage);
+  }
+  return setting.substr(0, dot) + " " + setting.substr(dot + 1);
+}
+
+ExitCode simulateVerb(const SimulateArguments& arguments) {
+  std::vector<std::string> amendments;
+  for (const auto& setting : arguments.statements) amendments.push_back(statementOf(setting));
+  const World world = readWorld(arguments.world, amendments);
+  if (!arguments.overwrite && std::filesystem::exists(arguments.log)) {
+    throw Error(arguments.log + " exists; choose another name or add --overwrite",
+                ExitCode::kUsage);
+  }
+  const auto summary = simulate(world, arguments.log, arguments.options);
+  std::printf("%s: %zu frames, %s s, %s m, %s MB; %zu of %zu landmarks seen\n",
+              arguments.log.c_str(), summary.frames, formatFixed(summary.duration_s, 1).c_str(),
+              formatFixed(summary.path_length_m, 2).c_str(),
+              formatFixed(static_cast<double>(summary.log_bytes) / 1e6, 2).c_str(),
+              summary.landmarks_seen, summary.landmarks);
+  return ExitCode::kDone;
+}
+
+}  // namespace
+
+Action addSimulate(CLI::App& verb) {
+  auto arguments = std::make_shared<SimulateArguments>();
+  verb.description("Drive a robot through a simulated building: a rawlog with the truth beside it");
+  verb.add_option("WORLD", arguments->world, "world file, see rawlogs/worlds")->required();
+  verb.add_option("-o,--output", arguments->log, "rawlog to write")->required();
+  verb.add_option("--seed", arguments->options.seed, "of all noise")->capture_default_str();
+  const auto shorthand = [&](const char* name, const char* key, const char* meaning) {
+    verb.add_option_function<std::string>(
+        name,
+        [arguments, key](const std::string& value) {
+          arguments->statements.push_back(std::string(key) + "=" + value);
+        },
+        meaning);
+  };
+  shorthand("--width", "camera.width_px", "image width, pixels");
+  shorthand("--height", "camera.height_px", "image height, pixels");
+  shorthand("--rate", "camera.rate_hz", "frames per second");
+  shorthand("--jpeg-quality", "camera.jpeg_quality", "of the colour images, 10 to 100");
+  verb.add_option_function<std::vector<std::string>>(
+      "--set",
+      [arguments](const std::vector<std::string>& settings) {
+        arguments->statements.insert(arguments->statements.end(), settings.begin(), settings.end());
+      },
+      "section.key=value over the world file, such as odometry.scale=0");
+  verb.add_option("--gz-level", arguments->options.gz_level, "0 plain, 1 fast ... 9 small")
+      ->check(CLI::Range(0, 9))
+      ->capture_default_str();
+  verb.add_flag("--overwrite", arguments->overwrite, "replace an existing log");
+  verb.footer(
+      "Examples:\n"
+      "  colonnade simulate rawlogs/worlds/corridor.world -o /tmp/corridor.rawlog --seed 7\n"
+      "  colonnade simulate rawlogs/worlds/corridor.world -o big.rawlog --width 640 --height 480\n"
+      "  colonnade simulate rawlogs/worlds/corridor.world -o calm.rawlog --set odometry.scale=0");
+  return [arguments] { return simulateVerb(*arguments); };
+}
+
+}  // namespace colonnade

@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "colonnade/simulation/world.hpp"
+
+namespace colonnade {
+
+/// The robot's pose at the time of every frame: T_world_robot every 1 / rate_hz seconds, the first
+/// at the start. Legs are straight, corners between two legs are arcs, speed changes by at most
+/// 0.5 m/s^2 and turns by at most the step's rate. Throws Error (kUsage) when an arc does not fit
+/// between its neighbours.
+std::vector<Pose2> driveRoute(const Route& route, double rate_hz);
+
+}  // namespace colonnade

@@ -1,0 +1,136 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "colonnade/base/pose2.hpp"
+#include "colonnade/simulation/sensor_options.hpp"
+
+namespace colonnade {
+
+/// How a surface is painted.
+enum class Pattern { kPlaster, kTiles, kPanels, kPapers, kPlain, kLamp };
+
+struct Material {
+  std::string name;
+  Pattern pattern = Pattern::kPlaster;
+  Eigen::Vector3d colour = {200, 200, 200};  ///< red, green, blue of the lit surface, 0 to 255
+  Eigen::Vector3d second = {120, 120, 120};  ///< joints of tiles, lines of panels
+  double grain = 4.0;                        ///< gray levels of fine noise
+  double blotches = 4.0;                     ///< gray levels of coarse noise
+  double tile_m = 0.30;
+};
+
+/// A straight wall from a to b. Free space lies on its left. Metres.
+struct Wall {
+  std::string name;
+  Eigen::Vector2d a = Eigen::Vector2d::Zero();
+  Eigen::Vector2d b = Eigen::Vector2d::Zero();
+  double height_m = 2.6;
+  std::size_t material = 0;
+  double skirting_m = 0.10;  ///< painted on the wall, 0 = none
+  std::size_t skirting_material = 0;
+  int hallway = -1;  ///< which hallway the wall belongs to, -1 = none
+
+  double length() const { return (b - a).norm(); }
+};
+
+/// A door in a wall: an opening with a leaf set back by `recess_m` and a frame of `frame_m` width
+/// around it that stands out by `protrusion_m`. `at_m` is the middle, from the wall's start.
+struct Door {
+  std::size_t wall = 0;
+  double at_m = 0.0;
+  double width_m = 0.9;
+  double height_m = 2.05;
+  double recess_m = 0.10;
+  double frame_m = 0.08;
+  double protrusion_m = 0.02;
+  std::size_t material = 0;
+  std::size_t frame_material = 0;
+};
+
+/// A half pillar that stands out of a wall over its whole height.
+struct Pilaster {
+  std::size_t wall = 0;
+  double at_m = 0.0;
+  double width_m = 0.4;
+  double depth_m = 0.2;
+  std::size_t material = 0;
+};
+
+/// A free-standing square pillar over the whole height.
+struct Pillar {
+  Eigen::Vector2d centre = Eigen::Vector2d::Zero();
+  Eigen::Vector2d size = {0.4, 0.4};
+  double turn = 0.0;
+  double height_m = 2.6;
+  std::size_t material = 0;
+};
+
+/// A notice board on a wall. Its edges are vertical but end above the floor: no landmark.
+struct Board {
+  std::size_t wall = 0;
+  double at_m = 0.0;
+  double width_m = 1.2;
+  double bottom_m = 1.0;
+  double height_m = 0.9;
+  double thickness_m = 0.02;
+  std::size_t material = 0;
+};
+
+struct Lamp {
+  Eigen::Vector2d centre = Eigen::Vector2d::Zero();
+  Eigen::Vector2d size = {1.2, 0.3};
+  double brightness = 1.0;
+};
+
+/// One step of the robot's route.
+struct RouteStep {
+  enum class Kind { kDrive, kTurn, kWait } kind = Kind::kDrive;
+  Eigen::Vector2d to = Eigen::Vector2d::Zero();  ///< drive: in the world
+  double speed_m_per_s = 0.8;
+  double radius_m = 0.7;  ///< drive: of the arc into the next leg, 0 = stop and turn on the spot
+  double angle = 0.0;     ///< turn: counter-clockwise
+  double turn_rate = radians(45.0);
+  double duration_s = 0.0;  ///< wait
+};
+
+struct Route {
+  Pose2 start;
+  std::vector<RouteStep> steps;
+};
+
+/// A building, a robot in it and what its sensors do.
+struct World {
+  std::string name;
+  std::vector<Material> materials;
+  std::vector<Wall> walls;
+  std::vector<Door> doors;
+  std::vector<Pilaster> pilasters;
+  std::vector<Pillar> pillars;
+  std::vector<Board> boards;
+  std::vector<Lamp> lamps;
+  std::size_t floor_material = 0;
+  std::size_t ceiling_material = 0;
+  double texels_per_m = 200.0;
+  Route route;
+  CameraOptions camera;
+  DepthOptions depth;
+  ColourOptions colour;
+  OdometryOptions odometry;
+};
+
+/// Reads a world; the format is described in modules/simulation/README.md. Throws Error (kUsage)
+/// as "file:line: what is wrong, what would be right".
+/// `amendments` are further statements, read after the file, such as "camera rate_hz=5".
+World readWorld(const std::filesystem::path& path, const std::vector<std::string>& amendments = {});
+
+/// The same from text; `name` stands for the file in errors.
+World parseWorld(std::string_view text, const std::string& name);
+
+}  // namespace colonnade

@@ -1,0 +1,146 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "colonnade/simulation/drive.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "colonnade/base/error.hpp"
+#include "colonnade/base/text.hpp"
+
+namespace colonnade {
+namespace {
+
+constexpr double kAcceleration = 0.5;        ///< m/s^2
+constexpr double kTurnRate = radians(60.0);  ///< fastest turn in an arc
+constexpr double kStepsPerSecond = 1000.0;
+
+/// A piece of constant curvature, or a turn on the spot, or a pause.
+struct Piece {
+  double length_m = 0.0;
+  double curvature = 0.0;
+  double speed = 0.0;
+  double turn = 0.0;  ///< on the spot
+  double turn_rate = 0.0;
+  double wait_s = 0.0;
+
+  bool drives() const { return length_m > 0.0; }
+};
+
+[[noreturn]] void fail(const std::string& what, const Eigen::Vector2d& p) {
+  throw Error("route: " + what + " at " + formatFixed(p.x(), 2) + " " + formatFixed(p.y(), 2),
+              ExitCode::kUsage);
+}
+
+/// Distance from the corner at which an arc of this radius begins, for a turn by `angle`.
+double cutOf(double radius, double angle) { return radius * std::tan(0.5 * std::abs(angle)); }
+
+std::vector<Piece> piecesOf(const Route& route) {
+  std::vector<Piece> pieces;
+  Eigen::Vector2d p = route.start.translation();
+  double heading = route.start.phi;
+  double used = 0.0;  // of the leg, by the arc at its beginning
+  const auto turnOnTheSpot = [&](double angle, double rate) {
+    if (std::abs(angle) > 1e-6) pieces.push_back({.turn = angle, .turn_rate = rate});
+    heading += angle;
+  };
+  for (std::size_t i = 0; i < route.steps.size(); ++i) {
+    const auto& step = route.steps[i];
+    if (step.kind == RouteStep::Kind::kWait) {
+      if (step.duration_s > 0.0) pieces.push_back({.wait_s = step.duration_s});
+      continue;
+    }
+    if (step.kind == RouteStep::Kind::kTurn) {
+      turnOnTheSpot(step.angle, step.turn_rate);
+      continue;
+    }
+    const Eigen::Vector2d leg = step.to - p;
+    if (leg.norm() < 1e-3) fail("the robot is there already", step.to);
+    const double direction = std::atan2(leg.y(), leg.x());
+    if (used == 0.0) turnOnTheSpot(wrapAngle(direction - heading), step.turn_rate);
+    double cut = 0.0, angle = 0.0;
+    const bool turns_into_next = i + 1 < route.steps.size() && step.radius_m > 0.0 &&
+                                 route.steps[i + 1].kind == RouteStep::Kind::kDrive;
+    if (turns_into_next) {
+      const Eigen::Vector2d next = route.steps[i + 1].to - step.to;
+      angle = wrapAngle(std::atan2(next.y(), next.x()) - direction);
+      if (std::abs(angle) > radians(150.0))
+        fail("a turn of more than 150 degrees needs radius_m=0", step.to);
+      cut = cutOf(step.radius_m, angle);
+    }
+    if (used + cut > leg.norm() + 1e-9)
+      fail("the arcs do not fit; use a smaller radius_m", step.to);
+    pieces.push_back({.length_m = leg.norm() - used - cut, .speed = step.speed_m_per_s});
+    if (std::abs(angle) > 1e-6) {
+      pieces.push_back({.length_m = step.radius_m * std::abs(angle),
+                        .curvature = std::copysign(1.0 / step.radius_m, angle),
+                        .speed = std::min(step.speed_m_per_s, kTurnRate * step.radius_m)});
+    }
+    heading = direction + angle;
+    used = cut;
+    p = step.to;
+  }
+  return pieces;
+}
+
+/// Where constant curvature leads, exactly: arc of length s, else the straight line.
+Pose2 advanced(const Pose2& pose, double s, double curvature) {
+  const double turn = s * curvature;
+  const double chord = std::abs(turn) < 1e-9 ? s : 2.0 * std::sin(0.5 * turn) / curvature;
+  const double direction = pose.phi + 0.5 * turn;
+  return {pose.x + chord * std::cos(direction), pose.y + chord * std::sin(direction),
+          wrapAngle(pose.phi + turn)};
+}
+
+/// The fastest speed `remaining` metres before the end of piece `index` that still allows to brake
+/// for everything that follows.
+double allowedSpeed(const std::vector<Piece>& pieces, std::size_t index, double remaining) {
+  double allowed = pieces[index].speed;
+  double distance = remaining;
+  for (std::size_t i = index + 1; i <= pieces.size(); ++i) {
+    const double next = i < pieces.size() && pieces[i].drives() ? pieces[i].speed : 0.0;
+    allowed = std::min(allowed, std::sqrt(next * next + 2.0 * kAcceleration * distance));
+    if (next == 0.0 || distance > 10.0) break;
+    distance += pieces[i].length_m;
+  }
+  return allowed;
+}
+
+}  // namespace
+
+std::vector<Pose2> driveRoute(const Route& route, double rate_hz) {
+  const auto pieces = piecesOf(route);
+  const int steps_per_frame = std::max(1, static_cast<int>(std::lround(kStepsPerSecond / rate_hz)));
+  const double dt = 1.0 / (rate_hz * steps_per_frame);
+  std::vector<Pose2> poses = {route.start};
+  Pose2 pose = route.start;  // at the beginning of the piece
+  double speed = 0.0;
+  int step = 0;
+  const auto tick = [&](const Pose2& now) {
+    if (++step % steps_per_frame == 0) poses.push_back(now);
+  };
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const Piece& piece = pieces[i];
+    double done = 0.0;
+    if (piece.drives()) {
+      while (done < piece.length_m) {
+        speed =
+            std::min(speed + kAcceleration * dt, allowedSpeed(pieces, i, piece.length_m - done));
+        done = std::min(piece.length_m, done + std::max(speed, 0.005) * dt);
+        tick(advanced(pose, done, piece.curvature));
+      }
+      pose = advanced(pose, piece.length_m, piece.curvature);
+    } else if (piece.wait_s > 0.0) {
+      for (; done < piece.wait_s; done += dt) tick(pose);
+    } else {
+      while (done < std::abs(piece.turn)) {
+        done = std::min(std::abs(piece.turn), done + piece.turn_rate * dt);
+        tick({pose.x, pose.y, wrapAngle(pose.phi + std::copysign(done, piece.turn))});
+      }
+      pose.phi = wrapAngle(pose.phi + piece.turn);
+    }
+  }
+  return poses;
+}
+
+}  // namespace colonnade
