@@ -23,11 +23,12 @@ enum class LogEnding {
 /// What was lost on the way. A log with any of it ends in ExitCode::kLossy.
 struct Damage {
   LogEnding ending = LogEnding::kNotReached;
-  std::size_t entries_read = 0;    ///< whole top-level objects read
-  std::size_t ending_entry = 0;    ///< number of the entry that is cut or damaged
-  std::uint64_t ending_offset = 0; ///< where it starts, in bytes of the uncompressed log
-  std::string detail;              ///< one line for a person
-  std::map<std::string, std::size_t> skipped;  ///< reason -> observations left out
+  std::size_t entries_read = 0;     ///< whole top-level objects read
+  std::size_t ending_entry = 0;     ///< number of the entry that is cut or damaged
+  std::uint64_t ending_offset = 0;  ///< where it starts, in bytes of the uncompressed log
+  std::string detail;               ///< one line for a person
+  std::map<std::string, std::size_t> skipped;  ///< reason -> observations lost
+  std::map<std::string, std::size_t> ignored;  ///< what -> observations not used; no loss
 
   bool any() const {
     return ending == LogEnding::kCut || ending == LogEnding::kDamaged || !skipped.empty();

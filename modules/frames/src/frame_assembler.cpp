@@ -1,0 +1,253 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "frame_assembler.hpp"
+
+#include <mrpt/obs/CActionCollection.h>
+#include <mrpt/obs/CActionRobotMovement2D.h>
+#include <mrpt/obs/CActionRobotMovement3D.h>
+#include <mrpt/obs/CObservation3DRangeScan.h>
+#include <mrpt/obs/CObservationBearingRange.h>
+#include <mrpt/obs/CObservationImage.h>
+#include <mrpt/obs/CObservationOdometry.h>
+#include <mrpt/obs/CRawlog.h>
+#include <mrpt/obs/CSensoryFrame.h>
+
+#include <algorithm>
+
+#include "stamps.hpp"
+
+namespace colonnade {
+namespace {
+
+using mrpt::obs::CObservation;
+using mrpt::obs::CObservation3DRangeScan;
+using mrpt::obs::CObservationBearingRange;
+using mrpt::obs::CObservationImage;
+using mrpt::obs::CObservationOdometry;
+
+Pose2 toPose2(const mrpt::poses::CPose2D& pose) { return {pose.x(), pose.y(), pose.phi()}; }
+
+bool isFinite(const Pose2& pose) { return pose.vector().allFinite(); }
+
+std::optional<Eigen::Matrix3d> usable(const mrpt::math::CMatrixDouble33& covariance) {
+  const Eigen::Matrix3d result = covariance.asEigen();
+  if (!result.allFinite() || result.isZero(0.0)) return std::nullopt;
+  return result;
+}
+
+RangeBearingScan toScan(const CObservationBearingRange& observation) {
+  RangeBearingScan scan;
+  scan.T_robot_sensor = toIsometry(observation.sensorLocationOnRobot);
+  scan.range_sigma_m = static_cast<double>(observation.sensor_std_range);
+  scan.yaw_sigma = static_cast<double>(observation.sensor_std_yaw);
+  for (const auto& reading : observation.sensedData)
+    scan.readings.push_back({reading.landmarkID, static_cast<double>(reading.range),
+                             static_cast<double>(reading.yaw), static_cast<double>(reading.pitch)});
+  return scan;
+}
+
+}  // namespace
+
+FrameAssembler::FrameAssembler(const std::filesystem::path& log, const SourceOptions& options,
+                               Damage& damage)
+    : options_(options),
+      damage_(damage),
+      images_folder_(mrpt::obs::CRawlog::detectImagesDirectory(log.string())),
+      builder_(options) {}
+FrameAssembler::~FrameAssembler() = default;
+
+void FrameAssembler::add(const Entry& entry) {
+  using namespace mrpt::obs;
+  if (const auto actions = std::dynamic_pointer_cast<CActionCollection>(entry.object))
+    addActions(*actions);
+  else if (const auto frame = std::dynamic_pointer_cast<CSensoryFrame>(entry.object))
+    addSensoryFrame(*frame);
+  else if (const auto observation = std::dynamic_pointer_cast<CObservation>(entry.object))
+    addObservation(observation);
+  else
+    ++damage_.ignored[entry.object->GetRuntimeClass()->className];
+}
+
+void FrameAssembler::addActions(const mrpt::obs::CActionCollection& actions) {
+  // The first movement of a collection counts; a second one is another estimate of the same motion.
+  for (std::size_t i = 0; i < actions.size(); ++i) {
+    const mrpt::obs::CAction* action = &actions.get(i);
+    if (const auto* flat = dynamic_cast<const mrpt::obs::CActionRobotMovement2D*>(action)) {
+      if (!flat->poseChange) continue;
+      mrpt::poses::CPose2D mean;
+      mrpt::math::CMatrixDouble33 covariance;
+      flat->poseChange->getCovarianceAndMean(covariance, mean);
+      if (!isFinite(toPose2(mean))) return skip("motion with a value that is not finite");
+      return sum_.add(toPose2(mean), usable(covariance));
+    }
+    if (const auto* solid = dynamic_cast<const mrpt::obs::CActionRobotMovement3D*>(action)) {
+      const Pose2 motion = planarPart(toIsometry(solid->poseChange.mean));
+      if (!isFinite(motion)) return skip("motion with a value that is not finite");
+      const auto& all = solid->poseChange.cov;  // x y z yaw pitch roll
+      mrpt::math::CMatrixDouble33 covariance;
+      constexpr std::array<int, 3> kPlanar{0, 1, 3};
+      for (int row = 0; row < 3; ++row)
+        for (int column = 0; column < 3; ++column)
+          covariance(row, column) = all(kPlanar[static_cast<std::size_t>(row)],
+                                        kPlanar[static_cast<std::size_t>(column)]);
+      return sum_.add(motion, usable(covariance));
+    }
+  }
+}
+
+bool FrameAssembler::isChosenCamera(const CObservation& observation) {
+  if (!options_.sensor_label.empty()) return observation.sensorLabel == options_.sensor_label;
+  if (!camera_label_) camera_label_ = observation.sensorLabel;
+  return *camera_label_ == observation.sensorLabel;
+}
+
+bool FrameAssembler::place(const CObservation::Ptr& observation, Candidate& candidate) {
+  if (auto scan = std::dynamic_pointer_cast<CObservation3DRangeScan>(observation)) {
+    if (!scan->hasIntensityImage && !scan->hasRangeImage) return false;
+    if (scan->hasIntensityImage && !isChosenCamera(*scan)) {
+      if (!depth_label_) depth_label_ = "";
+      return false;
+    }
+    if (!scan->hasIntensityImage) {
+      if (!depth_label_) depth_label_ = scan->sensorLabel;
+      if (*depth_label_ != scan->sensorLabel) return false;
+    }
+    if (candidate.scan || (candidate.image && scan->hasIntensityImage)) return false;
+    candidate.scan = scan;
+    return true;
+  }
+  if (auto image = std::dynamic_pointer_cast<CObservationImage>(observation)) {
+    if (!isChosenCamera(*image) || candidate.image ||
+        (candidate.scan && candidate.scan->hasIntensityImage))
+      return false;
+    candidate.image = image;
+    return true;
+  }
+  if (auto landmarks = std::dynamic_pointer_cast<CObservationBearingRange>(observation)) {
+    if (candidate.landmarks) return false;
+    candidate.landmarks = landmarks;
+    return true;
+  }
+  return false;
+}
+
+void FrameAssembler::addSensoryFrame(const mrpt::obs::CSensoryFrame& frame) {
+  Candidate candidate;
+  candidate.from_sensory_frame = true;
+  double image_s = 0.0, any_s = 0.0;
+  bool image = false, any = false;
+  for (const auto& observation : frame) {
+    if (!observation) continue;
+    if (!place(observation, candidate)) {
+      ++damage_.ignored[observation->GetRuntimeClass()->className];
+      continue;
+    }
+    const double stamp_s = secondsOf(observation->timestamp);
+    if (observation == candidate.image || (observation == candidate.scan && !image)) {
+      image_s = stamp_s;
+      image = observation == candidate.image || candidate.scan->hasIntensityImage;
+    }
+    any_s = any ? any_s : stamp_s;
+    any = true;
+  }
+  if (!any) return;
+  candidate.stamp_s = candidate.image || candidate.scan ? image_s : any_s;
+  candidate.odometry = sum_.take();
+  waiting_.push_back(std::move(candidate));
+}
+
+void FrameAssembler::addObservation(const CObservation::Ptr& observation) {
+  const double stamp_s = secondsOf(observation->timestamp);
+  if (const auto odometry = std::dynamic_pointer_cast<CObservationOdometry>(observation)) {
+    if (!isPlausibleStamp(stamp_s)) return skip("odometry with an invalid stamp");
+    if (!isFinite(toPose2(odometry->odometry))) return skip("odometry that is not finite");
+    if (!track_.add(stamp_s, toPose2(odometry->odometry)))
+      return skip("odometry whose stamp repeats or goes back");
+    newest_s_ = std::max(newest_s_, stamp_s);
+    return;
+  }
+  for (auto& candidate : waiting_)
+    if (!candidate.from_sensory_frame && std::abs(candidate.stamp_s - stamp_s) <= kTogether_s &&
+        place(observation, candidate)) {
+      if (observation == candidate.image) candidate.stamp_s = stamp_s;  // the frame is the image's
+      return;
+    }
+  Candidate candidate;
+  candidate.stamp_s = stamp_s;
+  if (!place(observation, candidate)) {
+    ++damage_.ignored[observation->GetRuntimeClass()->className];
+    return;
+  }
+  insert(std::move(candidate));
+}
+
+void FrameAssembler::insert(Candidate candidate) {
+  if (!isPlausibleStamp(candidate.stamp_s)) return skip("frame with an invalid stamp");
+  newest_s_ = std::max(newest_s_, candidate.stamp_s);
+  auto place = waiting_.end();
+  while (place != waiting_.begin() && (place - 1)->stamp_s > candidate.stamp_s) --place;
+  waiting_.insert(place, std::move(candidate));
+}
+
+bool FrameAssembler::isReady(const Candidate& candidate) const {
+  if (finishing_ || candidate.from_sensory_frame || waiting_.size() > kMostWaiting) return true;
+  const bool late = newest_s_ > candidate.stamp_s + kLate_s;
+  const bool whole = candidate.scan && (candidate.scan->hasIntensityImage || candidate.image);
+  if (!whole && !late) return false;
+  const bool odometry_known = track_.empty()
+                                  ? newest_s_ > candidate.stamp_s + OdometryTrack::kLongestReach_s
+                                  : track_.lastStamp() >= candidate.stamp_s;
+  return odometry_known || newest_s_ > candidate.stamp_s + OdometryTrack::kLongestGap_s;
+}
+
+std::optional<Frame> FrameAssembler::take() {
+  while (!waiting_.empty() && isReady(waiting_.front())) {
+    Candidate candidate = std::move(waiting_.front());
+    waiting_.pop_front();
+    if (auto frame = build(candidate)) return frame;
+  }
+  return std::nullopt;
+}
+
+std::optional<Frame> FrameAssembler::build(Candidate& candidate) {
+  const bool depth_only = candidate.scan && !candidate.scan->hasIntensityImage && !candidate.image;
+  if (depth_only && camera_label_) {
+    ++damage_.ignored["depth without an image within 0.02 s"];
+    if (!candidate.landmarks) return std::nullopt;
+    candidate.scan.reset();
+  }
+  const auto refuse = [this](const std::string& reason) {
+    skip(reason);
+    return std::nullopt;
+  };
+  if (!isPlausibleStamp(candidate.stamp_s)) return refuse("frame with an invalid stamp");
+  if (candidate.stamp_s == last_delivered_s_) return refuse("frame whose stamp repeats");
+  if (candidate.stamp_s < last_delivered_s_) return refuse("frame whose stamp goes back");
+
+  Frame frame;
+  frame.stamp_s = candidate.stamp_s;
+  std::string problem;
+  std::optional<ImageView> image;
+  std::optional<DepthView> depth;
+  if (candidate.image) image = imageOf(*candidate.image, images_folder_, &problem);
+  if (!image && candidate.scan) image = imageOf(*candidate.scan, images_folder_, &problem);
+  if (!problem.empty()) skip(problem);
+  problem.clear();
+  if (candidate.scan) depth = depthOf(*candidate.scan, images_folder_, &problem);
+  if (!problem.empty()) skip(problem);
+  problem.clear();
+  if (!builder_.build(image, depth, frame, &problem)) return refuse(problem);
+  if (!problem.empty()) skip(problem);
+
+  if (candidate.landmarks) frame.range_bearing = toScan(*candidate.landmarks);
+  if (candidate.from_sensory_frame) {
+    frame.odometry = candidate.odometry;
+  } else if (const auto T_odom_robot = track_.at(frame.stamp_s)) {
+    frame.odometry = OdometryReading{*T_odom_robot, std::nullopt};
+    track_.forgetBefore(frame.stamp_s);
+  }
+  last_delivered_s_ = frame.stamp_s;
+  return frame;
+}
+
+}  // namespace colonnade

@@ -1,0 +1,180 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "frame_builder.hpp"
+
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "colonnade/base/error.hpp"
+#include "depth_registration.hpp"
+#include "lens.hpp"
+
+namespace colonnade {
+namespace {
+
+std::string sizeText(int width, int height) {
+  return std::to_string(width) + "x" + std::to_string(height);
+}
+
+/// Fits the calibration to the size of the image, when the two have the same proportions.
+bool fit(Calibration& calibration, const cv::Mat& pixels, std::string* problem) {
+  auto& c = calibration.pinhole;
+  if (c.width_px == pixels.cols && c.height_px == pixels.rows) return true;
+  if (c.width_px <= 0 || c.height_px <= 0 ||
+      c.width_px * pixels.rows != c.height_px * pixels.cols) {
+    *problem = "calibration for " + sizeText(c.width_px, c.height_px) +
+               " does not fit the image of " + sizeText(pixels.cols, pixels.rows);
+    return false;
+  }
+  // Pixel centres have whole coordinates, so the image's corner is at -0.5.
+  const double scale = static_cast<double>(pixels.cols) / c.width_px;
+  c.fx_px *= scale;
+  c.fy_px *= scale;
+  c.cx_px = (c.cx_px + 0.5) * scale - 0.5;
+  c.cy_px = (c.cy_px + 0.5) * scale - 0.5;
+  c.width_px = pixels.cols;
+  c.height_px = pixels.rows;
+  return true;
+}
+
+bool isSound(const PinholeCamera& c) {
+  // A focal length under a tenth or over 30 widths is no camera a robot carries; MRPT's untouched
+  // TCamera has 1 or 0.
+  const double width = c.width_px;
+  return std::isfinite(c.fx_px) && std::isfinite(c.fy_px) && std::isfinite(c.cx_px) &&
+         std::isfinite(c.cy_px) && c.fx_px > 0.1 * width && c.fx_px < 30 * width &&
+         c.fy_px > 0.1 * width && c.fy_px < 30 * width && std::abs(c.cx_px) < 4 * width &&
+         std::abs(c.cy_px) < 4 * width;
+}
+
+bool coincide(const PinholeCamera& a, const PinholeCamera& b, const Eigen::Isometry3d& T_a_b) {
+  constexpr double kPixels = 0.02, kMetres = 1e-4, kRadians = 1e-4;
+  return a.width_px == b.width_px && a.height_px == b.height_px &&
+         std::abs(a.fx_px - b.fx_px) < kPixels && std::abs(a.fy_px - b.fy_px) < kPixels &&
+         std::abs(a.cx_px - b.cx_px) < kPixels && std::abs(a.cy_px - b.cy_px) < kPixels &&
+         T_a_b.translation().norm() < kMetres &&
+         std::abs(Eigen::AngleAxisd(T_a_b.linear()).angle()) < kRadians;
+}
+
+}  // namespace
+
+struct FrameBuilder::Impl {
+  explicit Impl(const SourceOptions& source_options) : options(source_options) {
+    const bool any =
+        options.fx_px > 0 || options.fy_px > 0 || options.cx_px > 0 || options.cy_px > 0;
+    overridden = options.fx_px > 0 && options.fy_px > 0 && options.cx_px > 0 && options.cy_px > 0;
+    if (any && !overridden)
+      throw Error("Camera.fx_px, fy_px, cx_px and cy_px belong together: give all four",
+                  ExitCode::kUsage);
+    if (options.tilt != "given" && (options.pitch != 0.0 || options.roll != 0.0))
+      throw Error("Camera.pitch_deg and roll_deg count only with --set Camera.tilt=given",
+                  ExitCode::kUsage);
+  }
+
+  /// The calibration to use, or false when it does not fit.
+  bool calibrate(Calibration& calibration, const cv::Mat& pixels, std::string* problem) const {
+    if (overridden) {
+      calibration = Calibration{};
+      calibration.pinhole = {pixels.cols,   pixels.rows,   options.fx_px,
+                             options.fy_px, options.cx_px, options.cy_px};
+      return true;
+    }
+    const bool untouched = !(calibration.pinhole.fx_px > 1.0 && calibration.pinhole.fy_px > 1.0);
+    if (untouched)
+      throw Error(
+          "the log does not calibrate its camera; give --set Camera.fx_px=... Camera.fy_px=... "
+          "Camera.cx_px=... Camera.cy_px=... (pixels)",
+          ExitCode::kUsage);
+    if (!fit(calibration, pixels, problem)) return false;
+    if (isSound(calibration.pinhole)) return true;
+    *problem = "absurd camera calibration";
+    return false;
+  }
+
+  /// Height and tilt of the options in place of the log's.
+  Eigen::Isometry3d mounted(Eigen::Isometry3d T_robot_camera) const {
+    if (options.height_m > 0.0) T_robot_camera.translation().z() = options.height_m;
+    if (options.tilt == "given") {
+      const Eigen::Vector3d forward = T_robot_camera.linear().col(2);
+      const double yaw = std::atan2(forward.y(), forward.x());
+      T_robot_camera.linear() = (Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()) *
+                                 Eigen::AngleAxisd(options.pitch, Eigen::Vector3d::UnitY()) *
+                                 Eigen::AngleAxisd(options.roll, Eigen::Vector3d::UnitX()))
+                                    .toRotationMatrix() *
+                                opticalAxes();
+    }
+    return T_robot_camera;
+  }
+
+  cv::Mat metres(const DepthView& view, const Calibration& calibration) {
+    cv::Mat depth;
+    view.units.convertTo(depth, CV_32F, view.metres_per_unit);
+    depth = depth_lens.depth(depth, calibration);
+    if (!view.along_axis) alongAxis(depth, calibration.pinhole);
+    return depth;
+  }
+
+  /// Distance along the ray -> distance along the optical axis.
+  static void alongAxis(cv::Mat& depth, const PinholeCamera& camera) {
+    for (int v = 0; v < depth.rows; ++v) {
+      auto* line = depth.ptr<float>(v);
+      for (int u = 0; u < depth.cols; ++u)
+        line[u] = static_cast<float>(line[u] / camera.ray(u, v).norm());
+    }
+  }
+
+  SourceOptions options;
+  bool overridden = false;
+  Undistorter image_lens, depth_lens;
+  DepthRegistration registration;
+};
+
+FrameBuilder::FrameBuilder(const SourceOptions& options) : impl_(std::make_unique<Impl>(options)) {}
+FrameBuilder::~FrameBuilder() = default;
+
+bool FrameBuilder::build(const std::optional<ImageView>& image,
+                         const std::optional<DepthView>& depth, Frame& frame,
+                         std::string* problem) {
+  Impl& s = *impl_;
+  if (image) {
+    Calibration calibration = image->calibration;
+    if (calibration.pinhole.fx_px <= 1.0 && depth &&
+        depth->T_robot_camera.isApprox(image->T_robot_camera, 1e-6))
+      calibration = depth->calibration;
+    if (!s.calibrate(calibration, image->pixels, problem)) return false;
+    const cv::Mat pixels = s.image_lens.image(image->pixels, calibration);
+    if (pixels.channels() == 3) {
+      frame.colour = pixels;
+      cv::cvtColor(pixels, frame.gray, cv::COLOR_BGR2GRAY);
+    } else {
+      frame.gray = pixels;
+    }
+    frame.camera = calibration.pinhole;
+    frame.T_robot_camera = image->T_robot_camera;
+  }
+  if (depth) {
+    Calibration calibration = depth->calibration;
+    if (calibration.pinhole.fx_px <= 1.0 && image) {
+      calibration = image->calibration;
+      if (s.overridden) calibration.lens = LensModel::kNone;
+    }
+    if (!s.calibrate(calibration, depth->units, problem)) return image.has_value();
+    cv::Mat depth_m = s.metres(*depth, calibration);
+    if (!image) {
+      frame.camera = calibration.pinhole;
+      frame.T_robot_camera = depth->T_robot_camera;
+      frame.depth_m = depth_m;
+    } else {
+      const Eigen::Isometry3d T_camera_depth =
+          image->T_robot_camera.inverse() * depth->T_robot_camera;
+      frame.depth_m = coincide(frame.camera, calibration.pinhole, T_camera_depth)
+                          ? depth_m
+                          : s.registration.registered(depth_m, calibration.pinhole, frame.camera,
+                                                      T_camera_depth);
+    }
+  }
+  frame.T_robot_camera = s.mounted(frame.T_robot_camera);
+  return true;
+}
+
+}  // namespace colonnade
