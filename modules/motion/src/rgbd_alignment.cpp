@@ -31,6 +31,10 @@ struct System {
   double cost = 0.0;  ///< sum of robust costs
 };
 
+// Scales are estimated, within bounds: a wrong pose must not turn everything into noise.
+constexpr float kMaxBrightnessSigma = 12.0f;
+constexpr float kMaxSurfaceSigma = 3.0f;
+
 struct Row {
   Vector8f J;
   float r;
@@ -125,7 +129,7 @@ class Problem {
       rows_.push_back(row);
       magnitudes_.push_back(std::abs(row.r));
     }
-    accumulate(rows_, std::max(robustSigma(magnitudes_), 1.5f), system);
+    accumulate(rows_, std::clamp(robustSigma(magnitudes_), 1.5f, kMaxBrightnessSigma), system);
     return system;
   }
 
@@ -138,6 +142,9 @@ class Problem {
     const auto fy = static_cast<float>(image.camera.fy_px);
     const auto cx = static_cast<float>(image.camera.cx_px);
     const auto cy = static_cast<float>(image.camera.cy_px);
+    float feigned_weight = 1e-3f;
+    Eigen::Vector3f feigned_first = Eigen::Vector3f::Zero();
+    Eigen::Matrix3f feigned_second = 1e-3f * Eigen::Matrix3f::Identity();
     rows_.clear();
     magnitudes_.clear();
     for (std::size_t i = 0; i < reference_.surfaces.size(); i += static_cast<std::size_t>(stride)) {
@@ -161,12 +168,24 @@ class Problem {
       Row row;
       row.r = r * weight;
       const Eigen::Vector3f nr = q.cross(n);
+      const float noise = point.inverse_variance * point.normal_variance;
+      feigned_weight += noise;
+      feigned_first += noise * q;
+      feigned_second += noise * (q.squaredNorm() * Eigen::Matrix3f::Identity() - q * q.transpose());
       row.J << weight * n, weight * nr, 0.0f, 0.0f;
       rows_.push_back(row);
       magnitudes_.push_back(std::abs(row.r));
     }
-    accumulate(rows_, std::max(robustSigma(magnitudes_), 1.0f), system);
-    suppressWeakDirections(system);
+    // Sum of w var(n) J^T J with J = (I, -[q]x): what random normals would add to H.
+    Matrix6 feigned;
+    feigned.topLeftCorner<3, 3>() =
+        static_cast<double>(feigned_weight) * Eigen::Matrix3d::Identity();
+    feigned.topRightCorner<3, 3>() = -skew(feigned_first.cast<double>());
+    feigned.bottomLeftCorner<3, 3>() = skew(feigned_first.cast<double>());
+    feigned.bottomRightCorner<3, 3>() = feigned_second.cast<double>();
+    const float sigma = std::clamp(robustSigma(magnitudes_), 1.0f, kMaxSurfaceSigma);
+    accumulate(rows_, sigma, system);
+    suppressWeakDirections(feigned / static_cast<double>(sigma * sigma), system);
     return system;
   }
 
@@ -199,29 +218,27 @@ class Problem {
   }
 
   /// Keeps only what the surfaces really constrain: along a corridor the normal matrix holds little
-  /// but the noise of the normals, and a point-to-plane fit slides there while its residual is
-  /// fine.
-  void suppressWeakDirections(System& system) const {
+  /// but the noise of the normals (`feigned`), and a point-to-plane fit slides there while its
+  /// residual is fine. Directions are the generalised eigenvectors of both matrices.
+  void suppressWeakDirections(const Matrix6& feigned, System& system) const {
     if (system.count == 0) return;
-    Vector6 scale;
-    scale << 1.0, 1.0, 1.0, Eigen::Vector3d::Constant(1.0 / 2.0);  // a turn acts at 2 m
-    const Matrix6 scaled = scale.asDiagonal() * system.H.topLeftCorner<6, 6>() * scale.asDiagonal();
-    const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(scaled);
-    const double limit = options_.weak_direction_ratio * eigen.eigenvalues()(5);
-    if (!(limit > 0.0)) return;
+    const Matrix6 H = system.H.topLeftCorner<6, 6>();
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6> eigen(H, feigned);
+    if (eigen.info() != Eigen::Success || !eigen.eigenvalues().allFinite()) {
+      system = System{};
+      return;
+    }
     Vector6 keep;
     for (int i = 0; i < 6; ++i) {
-      const double ratio = eigen.eigenvalues()(i) / limit;
-      keep(i) = ratio * ratio / (1.0 + ratio * ratio);
+      const double ratio = std::max(0.0, eigen.eigenvalues()(i)) / options_.weak_direction_ratio;
+      keep(i) = std::pow(ratio, 4) / (1.0 + std::pow(ratio, 4));
     }
-    const Matrix6& V = eigen.eigenvectors();
-    const Vector6 unscale = scale.cwiseInverse();
+    // V^T feigned V = I, so (feigned V)^T is the inverse of V.
+    const Matrix6 W = feigned * eigen.eigenvectors();
     system.H.topLeftCorner<6, 6>() =
-        unscale.asDiagonal() *
-        Matrix6(V * keep.cwiseProduct(eigen.eigenvalues()).asDiagonal() * V.transpose()) *
-        unscale.asDiagonal();
-    const Vector6 g = scale.cwiseProduct(system.g.head<6>());
-    system.g.head<6>() = unscale.cwiseProduct(V * keep.cwiseProduct(V.transpose() * g));
+        W * keep.cwiseProduct(eigen.eigenvalues()).asDiagonal() * W.transpose();
+    system.g.head<6>() =
+        W * keep.cwiseProduct(eigen.eigenvectors().transpose() * system.g.head<6>());
   }
 
   const Reference& reference_;

@@ -16,7 +16,9 @@ struct AlignmentOptions {
   bool use_surfaces = true;
   double photometric_correlation = 8.0;  ///< neighbouring residuals that count as one
   double surface_correlation = 40.0;
-  double weak_direction_ratio = 0.02;  ///< of the largest eigenvalue, per surface normal matrix
+  /// Surface directions are used where they hold this many times the information that the noise of
+  /// the normals alone would feign.
+  double weak_direction_ratio = 4.0;
 };
 
 /// A frame prepared to be aligned to.

@@ -184,21 +184,29 @@ std::vector<SurfacePoint> selectSurfacePoints(const PyramidLevel& level, int cel
       if (count < kMinCount) continue;
       A(2, 2) = count;
       A.triangularView<Eigen::StrictlyLower>() = A.transpose();
-      const Eigen::Vector3d fit = A.ldlt().solve(b);
+      const Eigen::LDLT<Eigen::Matrix3d> ldlt(A);
+      const Eigen::Vector3d fit = ldlt.solve(b);
       const double rms = std::sqrt(std::max(0.0, (squares - fit.dot(b)) / count));
-      // 4 sigma of disparity noise: edges, steps and curved things are no patch.
+      // Edges, steps and curved things are no patch.
       const double sigma = static_cast<double>(depthSigma(centre)) / (centre * centre);
       if (rms > 3.0 * sigma + 0.001 || fit.z() <= 0.05) continue;
       const double c = fit.z() - fit.x() * u - fit.y() * v;
       Eigen::Vector3d normal(fit.x() * camera.fx_px, fit.y() * camera.fy_px,
                              c + fit.x() * camera.cx_px + fit.y() * camera.cy_px);
-      normal.normalize();
+      const double plane_distance = 1.0 / normal.norm();
+      normal *= plane_distance;
       const Eigen::Vector3d ray = camera.ray(u, v);
       const double cosine = normal.dot(ray) / ray.norm();
       if (cosine < 0.15) continue;  // seen along the surface: depth says nothing
       const double along = normal.dot(ray) * static_cast<double>(depthSigma(centre));
+      // Var(slope) = sigma^2 A^-1; depth noise is smooth over a few pixels, hence the factor.
+      constexpr double kNeighboursThatErrAlike = 4.0;
+      const double slope = plane_distance * std::max(rms, 0.5 * sigma) * camera.fx_px;
+      const double normal_variance =
+          kNeighboursThatErrAlike * slope * slope * ldlt.solve(Eigen::Vector3d::UnitX()).x();
       points.push_back({(ray / fit.z()).cast<float>(), -normal.cast<float>(),
-                        static_cast<float>(1.0 / (along * along + 1e-6))});
+                        static_cast<float>(1.0 / (along * along + 1e-6)),
+                        static_cast<float>(normal_variance)});
     }
   }
   return points;

@@ -39,6 +39,7 @@ struct SurfacePoint {
   Eigen::Vector3f p_reference;
   Eigen::Vector3f normal;  ///< unit, towards the camera
   float inverse_variance;  ///< of the distance along the normal to a pixel of another frame, 1/m^2
+  float normal_variance;   ///< rad^2, per axis
 };
 
 /// Strongest pixel of each cell, away from depth discontinuities.

@@ -32,7 +32,7 @@ struct MotionOptions {
   double min_share = 0.3;
   double photometric_correlation = 8.0;
   double surface_correlation = 40.0;
-  double weak_direction_ratio = 0.02;
+  double weak_direction_ratio = 4.0;
   double max_speed_m_s = 2.0;
   double max_turn_rate = radians(150.0);
 
@@ -60,8 +60,8 @@ struct MotionOptions {
              "neighbouring brightness residuals that count as one");
     v.number("surface_correlation", surface_correlation, {1, 1e5},
              "neighbouring depth residuals that count as one");
-    v.number("weak_direction_ratio", weak_direction_ratio, {1e-6, 1},
-             "surface directions below this part of the strongest are not used");
+    v.number("weak_direction_ratio", weak_direction_ratio, {0, 1e4},
+             "surface directions count above this many times what noisy normals feign");
     v.number("max_speed_m_s", max_speed_m_s, {0.01, 100}, "faster is a failed alignment");
     v.angle("max_turn_rate_deg", max_turn_rate, {1, 3600}, "per second; faster is a failure");
     v.number("coasting_speed_sigma_m_s", coasting_speed_sigma_m_s, {0.001, 100},
