@@ -32,10 +32,10 @@ WallVotes askDepth(const DepthView& depth, const LevelledCamera& camera, const F
         line.p_robot_a + (line.p_robot_b - line.p_robot_a) * i / kPlaces;
     const double distance_m = (p_robot - camera.centre().head<2>()).norm();
     const auto p_px = camera.project({p_robot.x(), p_robot.y(), options.wall_height_m});
-    if (!p_px || distance_m > geometry.max_depth_m) continue;
+    if (!p_px) continue;
     const auto point = depth.at(*p_px);
     if (!point) {
-      ++votes.unknown;
+      if (distance_m < geometry.max_depth_m) ++votes.unknown;
       continue;
     }
     // A tilt error moves floor points by (D^2 + H^2) / H per radian.
@@ -138,22 +138,26 @@ void extend(Detection& kept, const Detection& other) {
 
 /// One detection for each line: pieces of one line join the longest, and of parallel edges close
 /// together (skirting boards) the nearest to the camera stays, where wall and floor touch.
-Detections contactEdges(Detections found, const FloorEdgeOptions& options) {
+Detections contactEdges(Detections found, double camera_height_m, const FloorEdgeOptions& options) {
   std::sort(found.begin(), found.end(), [](const Detection& a, const Detection& b) {
     return length(a) > length(b) ||
            (length(a) == length(b) && a.measurement.z[0] < b.measurement.z[0]);
   });
+  constexpr double kSkirting_m = 0.1;
   Detections kept;
   for (auto& detection : found) {
     bool taken = false;
     for (auto& longer : kept) {
       if (!detection.accepted() || !longer.accepted()) continue;
       const double apart_m = apart(detection, longer);
+      // An edge this high above the floor seems to lie so much farther out.
+      const double skirting_m = longer.measurement.z[1] * kSkirting_m /
+                                std::max(camera_height_m - kSkirting_m, kSkirting_m);
       const double one_line_m = 0.04 + 2.0 * std::sqrt(detection.measurement.R(1, 1)) / 3.0;
       if (apart_m < std::min(one_line_m, 0.1)) {
         extend(longer, detection);
         taken = true;
-      } else if (apart_m < options.parallel_m &&
+      } else if (apart_m < options.parallel_m + skirting_m &&
                  overlap(detection, longer) > 0.5 * length(detection)) {
         const bool nearer = detection.measurement.z[1] < longer.measurement.z[1];
         if (nearer && length(detection) > 0.5 * length(longer)) {
@@ -191,7 +195,7 @@ Detections FloorEdgeDetector::detect(const Frame& frame, const RefinedLines& lin
     detection.refusal = reasonToRefuse(votes, *floor_line, !depth.empty(), options_);
     found.push_back(std::move(detection));
   }
-  return contactEdges(std::move(found), options_);
+  return contactEdges(std::move(found), camera.height(), options_);
 }
 
 }  // namespace colonnade

@@ -68,13 +68,12 @@ Measurement toMeasurement(const LevelledCamera& camera, const Bearing& bearing,
 }
 
 /// Two pieces of one edge, one above the other, are one landmark: the longer piece speaks.
-bool isSameLandmark(const Detection& a, const Detection& b) {
+bool isSameLandmark(const Detection& a, const Detection& b, double separation) {
   const auto& m = a.measurement;
   const auto& n = b.measurement;
   if (a.appearance.gradient_sign != b.appearance.gradient_sign) return false;
   const double apart = std::abs(wrapAngle(m.z[0] - n.z[0]));
-  if (apart > std::max(radians(0.15), 2.0 * std::sqrt(std::max(m.R(0, 0), n.R(0, 0)))))
-    return false;
+  if (apart > std::max(separation, 2.0 * std::sqrt(std::max(m.R(0, 0), n.R(0, 0))))) return false;
   if (!m.hasRange() || !n.hasRange()) return true;
   return std::abs(m.z[1] - n.z[1]) < 0.1 + 3.0 * std::sqrt(m.R(1, 1) + n.R(1, 1));
 }
@@ -119,7 +118,7 @@ Detections PillarDetector::detect(const Frame& frame, const RefinedLines& lines)
     detection.refusal = reasonToRefuse(range.verdict, line.length(), options_);
     if (detection.accepted() &&
         std::any_of(detections.begin(), detections.end(), [&](const Detection& longer) {
-          return longer.accepted() && isSameLandmark(detection, longer);
+          return longer.accepted() && isSameLandmark(detection, longer, options_.separation);
         })) {
       continue;
     }

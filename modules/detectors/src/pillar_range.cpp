@@ -12,7 +12,7 @@
 namespace colonnade {
 namespace {
 
-constexpr int kRows = 48;         // along the edge
+constexpr int kRows = 32;         // along the edge
 constexpr int kFirst_px = 3;      // nearer pixels mix both surfaces
 constexpr int kSurface_px = 8;    // width of the strip that measures a surface
 constexpr int kReach_px = 28;     // how far to look past the shadow of a near object
@@ -33,6 +33,9 @@ struct Side {
   double range() const { return 1.0 / inverse_range; }
 };
 
+/// Every pixel of the nearest surface, every third one of the shadow beyond.
+constexpr int nextDistance(int k) { return k < kFirst_px + kSurface_px ? k + 1 : k + 3; }
+
 using Strip = std::array<std::vector<RowSample>, kReach_px + 1>;  // by distance from the edge
 
 std::vector<double> inverseRanges(const std::vector<RowSample>& samples) {
@@ -47,10 +50,10 @@ std::vector<double> inverseRanges(const std::vector<RowSample>& samples) {
 Side walk(const Strip& strip, int usable_rows) {
   Side side;
   std::vector<std::pair<int, double>> bins;
-  for (int k = kFirst_px; k <= kReach_px; ++k) {
+  for (int k = kFirst_px; k <= kReach_px; k = nextDistance(k)) {
     const auto& samples = strip[static_cast<std::size_t>(k)];
     if (static_cast<int>(samples.size()) * 10 < usable_rows * 3 || samples.size() < 3) {
-      if (!bins.empty() && k > bins.back().first + 2) break;
+      if (!bins.empty() && k > bins.back().first + 3) break;
       continue;
     }
     auto values = inverseRanges(samples);
@@ -58,7 +61,8 @@ Side walk(const Strip& strip, int usable_rows) {
     if (!bins.empty()) {
       const double step = 1.0 / inverse - 1.0 / bins.back().second;
       if (std::abs(step) > 0.06 + 2.0 * kinectDepthSigma(1.0 / inverse)) {
-        if (step > 0.0 || k > kNearStart_px) break;
+        const bool flying = bins.size() == 1;  // a pixel between two surfaces
+        if (k > kNearStart_px || (step > 0.0 && !flying)) break;
         bins.clear();
       }
     }
@@ -135,7 +139,7 @@ PillarRange measurePillarRange(const DepthView& depth, const RefinedLine& line,
     std::array<std::optional<SeenPoint>, kReach_px + 1> points[2];
     const SeenPoint* nearest = nullptr;
     for (int side = 0; side < 2; ++side) {
-      for (int k = kFirst_px; k <= kReach_px; ++k) {
+      for (int k = kFirst_px; k <= kReach_px; k = nextDistance(k)) {
         auto& point = points[side][static_cast<std::size_t>(k)];
         point = depth.at({u + (side == 0 ? -k : k), v});
         if (point && k <= kNearStart_px && (!nearest || point->range_m < nearest->range_m)) {
@@ -150,7 +154,7 @@ PillarRange measurePillarRange(const DepthView& depth, const RefinedLine& line,
       continue;
     }
     for (int side = 0; side < 2; ++side) {
-      for (int k = kFirst_px; k <= kReach_px; ++k) {
+      for (int k = kFirst_px; k <= kReach_px; k = nextDistance(k)) {
         const auto& point = points[side][static_cast<std::size_t>(k)];
         if (point)
           (side == 0 ? left : right)[static_cast<std::size_t>(k)].push_back(

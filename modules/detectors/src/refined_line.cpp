@@ -17,6 +17,11 @@ struct Sample {
 };
 using Samples = std::vector<Sample>;
 
+struct SignedSamples {
+  Samples rising;
+  Samples falling;
+};
+
 struct Straight {
   double middle = 0.0;
   double offset = 0.0;
@@ -28,69 +33,74 @@ struct Straight {
 class Walker {
  public:
   Walker(const cv::Mat& gray, const cv::Mat& edges, bool steep)
-      : gray_(gray), edges_(edges), steep_(steep) {}
+      : gray_(gray.data),
+        edges_(edges.data),
+        gray_s_(stride(gray, steep)),
+        gray_t_(stride(gray, !steep)),
+        edges_s_(stride(edges, steep)),
+        edges_t_(stride(edges, !steep)),
+        length_(steep ? edges.rows : edges.cols),
+        width_(steep ? edges.cols : edges.rows),
+        sign_of_code_(steep ? kSteep : kFlat) {}
 
-  int length() const { return steep_ ? edges_.rows : edges_.cols; }
-  int width() const { return steep_ ? edges_.cols : edges_.rows; }
-  int edge(int s, int t) const {
-    return steep_ ? edges_.at<std::uint8_t>(s, t) : edges_.at<std::uint8_t>(t, s);
-  }
-
-  /// Edge pixels within `reach` of the line whose gradient points along `sign` across it: the one
-  /// nearest to the line in each step.
-  Samples collect(const Straight& line, double reach, int sign) const {
-    Samples samples;
-    for (int s = 1; s + 1 < length(); ++s) {
+  /// Edge pixels within `reach` of the line, the one nearest to the line in each step, apart for
+  /// gradients that point along +1 and -1 across it.
+  SignedSamples collect(const Straight& line, double reach) const {
+    SignedSamples samples;
+    for (int s = 1; s + 1 < length_; ++s) {
       const double centre = line.across(s);
-      const int low = std::max(2, static_cast<int>(std::ceil(std::max(centre - reach, 0.0))));
-      const int high = static_cast<int>(std::floor(std::min(centre + reach, width() - 3.0)));
-      double nearest = 2.0 * reach;
-      std::optional<Sample> best;
+      if (centre < 0.0 || centre > width_) continue;
+      const int low = std::max(2, static_cast<int>(std::ceil(centre - reach)));
+      const int high = std::min(width_ - 3, static_cast<int>(std::floor(centre + reach)));
+      int nearest[2] = {-1, -1};
+      const std::uint8_t* edge = edges_ + s * edges_s_;
       for (int t = low; t <= high; ++t) {
-        const int code = edge(s, t);
-        if (code == 0 || signAcross(code - 1) != sign) continue;
-        const double distance = std::abs(t - centre);
-        if (distance >= nearest) continue;
-        nearest = distance;
-        best = Sample{static_cast<double>(s), t + peakOffset(s, t)};
+        const int code = edge[t * edges_t_];
+        if (code == 0) continue;
+        const int sign = sign_of_code_[code];
+        if (sign == 0) continue;
+        int& best = nearest[sign > 0 ? 0 : 1];
+        if (best < 0 || std::abs(t - centre) < std::abs(best - centre)) best = t;
       }
-      if (best) samples.push_back(*best);
+      if (nearest[0] >= 0) samples.rising.push_back(measured(s, nearest[0]));
+      if (nearest[1] >= 0) samples.falling.push_back(measured(s, nearest[1]));
     }
     return samples;
   }
 
  private:
-  /// +1, -1 or 0: which way across the line a gradient of that sector points.
-  int signAcross(int sector) const {
-    static constexpr int kSteep[8] = {1, 1, 0, -1, -1, -1, 0, 1};
-    static constexpr int kFlat[8] = {0, 1, 1, 1, 0, -1, -1, -1};
-    return steep_ ? kSteep[sector] : kFlat[sector];
+  /// Which way across the line a gradient points, by edge code (0 is no edge, then the sectors).
+  static constexpr int kSteep[9] = {0, 1, 1, 0, -1, -1, -1, 0, 1};
+  static constexpr int kFlat[9] = {0, 0, 1, 1, 1, 0, -1, -1, -1};
+
+  static std::ptrdiff_t stride(const cv::Mat& image, bool rows) {
+    return rows ? static_cast<std::ptrdiff_t>(image.step[0]) : 1;
   }
 
-  int gray(int s, int t) const {
-    return steep_ ? gray_.at<std::uint8_t>(s, t) : gray_.at<std::uint8_t>(t, s);
-  }
+  int gray(int s, int t) const { return gray_[s * gray_s_ + t * gray_t_]; }
 
   double gradient(int s, int t) const {
-    const int difference = gray(s - 1, t + 1) - gray(s - 1, t - 1) +
-                           2 * (gray(s, t + 1) - gray(s, t - 1)) + gray(s + 1, t + 1) -
-                           gray(s + 1, t - 1);
-    return std::abs(difference);
+    return std::abs(gray(s - 1, t + 1) - gray(s - 1, t - 1) +
+                    2 * (gray(s, t + 1) - gray(s, t - 1)) + gray(s + 1, t + 1) -
+                    gray(s + 1, t - 1));
   }
 
   /// Vertex of the parabola through three gradient magnitudes, at most half a pixel away.
-  double peakOffset(int s, int t) const {
+  Sample measured(int s, int t) const {
     const double before = gradient(s, t - 1);
     const double here = gradient(s, t);
     const double after = gradient(s, t + 1);
     const double curvature = before - 2.0 * here + after;
-    if (curvature >= 0.0) return 0.0;
-    return std::clamp(0.5 * (before - after) / curvature, -0.5, 0.5);
+    const double shift =
+        curvature < 0.0 ? std::clamp(0.5 * (before - after) / curvature, -0.5, 0.5) : 0.0;
+    return {static_cast<double>(s), t + shift};
   }
 
-  const cv::Mat& gray_;
-  const cv::Mat& edges_;
-  bool steep_;
+  const std::uint8_t* gray_;
+  const std::uint8_t* edges_;
+  std::ptrdiff_t gray_s_, gray_t_, edges_s_, edges_t_;
+  int length_, width_;
+  const int* sign_of_code_;
 };
 
 /// Least squares over samples; the covariance is per unit variance of one sample.
@@ -191,6 +201,7 @@ std::optional<RefinedLine> fitRun(Samples samples, bool steep, int sign,
   result.gradient_sign = sign;
   result.samples = static_cast<int>(samples.size());
   const double steps = result.end - result.begin + 1.0;
+  if (squares > n * options.max_residual_px * options.max_residual_px) return std::nullopt;
   if (result.length() < options.min_length_px || n < options.min_support * steps) {
     return std::nullopt;
   }
@@ -230,11 +241,17 @@ void refineSeed(const cv::Mat& gray, const cv::Mat& edges, const HoughLine& seed
   const bool steep = std::abs(c) >= std::abs(s);
   const Straight guess{0.0, seed.rho_bin / (steep ? c : s), steep ? -s / c : -c / s};
   const Walker walker(gray, edges, steep);
+  const SignedSamples around = walker.collect(guess, options.search_px);
   for (const int sign : {1, -1}) {
-    const auto agreed =
-        consensus(walker.collect(guess, options.search_px, sign), options.inlier_px);
+    const Samples& candidates = sign > 0 ? around.rising : around.falling;
+    if (static_cast<double>(candidates.size()) <
+        options.min_support * 0.7 * options.min_length_px) {
+      continue;
+    }
+    const auto agreed = consensus(candidates, options.inlier_px);
     if (!agreed) continue;
-    auto near = walker.collect(*agreed, 2.0 * options.inlier_px, sign);
+    const SignedSamples beside = walker.collect(*agreed, 2.0 * options.inlier_px);
+    const Samples& near = sign > 0 ? beside.rising : beside.falling;
     const auto fitted = leastSquares(within(near, *agreed, options.inlier_px), nullptr);
     if (!fitted) continue;
     for (auto& run : runs(within(near, *fitted, 1.5 * options.inlier_px), options)) {

@@ -14,6 +14,7 @@ struct PillarOptions {
   double vertical_tolerance = radians(4.0);
   double min_length_px = 50.0;
   double min_length_bearing_only_px = 100.0;
+  double separation = radians(0.4);   ///< edges of one sign closer than this are one
   double surface_step_m = 0.08;       ///< larger differences beside the edge are a jump in depth
   double upright_tolerance_m = 0.06;  ///< of the horizontal distance along the edge
   double min_pair_width_m = 0.05;
@@ -26,6 +27,7 @@ struct PillarOptions {
     v.number("min_length_px", min_length_px, {10, 2000}, "of an edge with range");
     v.number("min_length_bearing_only_px", min_length_bearing_only_px, {10, 2000},
              "of an edge whose depth is not known");
+    v.angle("separation_deg", separation, {0, 10}, "edges of one sign closer than this are one");
     v.number("surface_step_m", surface_step_m, {0.01, 1}, "step that separates near from far side");
     v.number("upright_tolerance_m", upright_tolerance_m, {0.01, 1},
              "change of distance along an upright edge, beyond noise");

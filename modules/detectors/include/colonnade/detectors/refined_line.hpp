@@ -18,7 +18,8 @@ struct LineRefinementOptions {
   double inlier_px = 1.2;  ///< from the fitted line
   double max_gap_px = 12.0;
   double min_length_px = 40.0;
-  double min_support = 0.55;        ///< share of the steps along the line with an edge pixel
+  double min_support = 0.7;         ///< share of the steps along the line with an edge pixel
+  double max_residual_px = 0.6;     ///< root mean square; texture scatters more than edges
   double duplicate_px = 2.0;        ///< lines this close with the same sign are one line
   double correlated_samples = 4.0;  ///< neighbouring edge pixels share their error over this many
 
@@ -28,6 +29,7 @@ struct LineRefinementOptions {
     v.number("max_gap_px", max_gap_px, {1, 100}, "gap that does not end a line");
     v.number("min_length_px", min_length_px, {10, 1000}, "shortest line kept");
     v.number("min_support", min_support, {0.1, 1}, "share of a line's steps with an edge pixel");
+    v.number("max_residual_px", max_residual_px, {0.1, 5}, "root mean square of a line's pixels");
     v.number("duplicate_px", duplicate_px, {0, 10}, "lines closer than this are one");
     v.number("correlated_samples", correlated_samples, {1, 50}, "edge pixels that share an error");
   }
