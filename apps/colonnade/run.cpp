@@ -1,0 +1,171 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <opencv2/core/utility.hpp>
+
+#include "colonnade/base/atomic_file.hpp"
+#include "colonnade/base/config.hpp"
+#include "colonnade/frames/rawlog_source.hpp"
+#include "colonnade/maps/landmark_csv.hpp"
+#include "colonnade/maps/map_recorder.hpp"
+#include "colonnade/slam/session.hpp"
+#include "interrupt.hpp"
+#include "progress.hpp"
+#include "results_folder.hpp"
+#include "run_recorder.hpp"
+#include "summary.hpp"
+#include "verbs.hpp"
+
+namespace colonnade {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct RunArguments {
+  fs::path log;
+  fs::path config;
+  fs::path output;
+  std::string backend = "opencv";
+  fs::path ground_truth;
+  std::vector<std::string> assignments;
+};
+
+/// Every section of the configuration file.
+struct RunOptions {
+  SourceOptions source;
+  SessionOptions session;
+  ScanOptions scans;
+  MapOptions maps;
+
+  template <class Take>
+  void each(Take&& take) {
+    take(source);
+    session.each(take);
+    take(scans);
+    take(maps);
+  }
+};
+
+RunOptions readOptions(const RunArguments& arguments) {
+  Config config = arguments.config.empty() ? Config() : Config::fromFile(arguments.config);
+  for (const std::string& assignment : arguments.assignments) config.set(assignment);
+  RunOptions options;
+  options.each([&](auto& section) { config.read(section); });
+  config.requireAllKnown();
+  return options;
+}
+
+std::string effectiveConfig(RunOptions options) {
+  ConfigWriter writer;
+  options.each([&](const auto& section) { writer.add(section); });
+  return writer.text();
+}
+
+/// Truth in the world of the estimate, for the picture.
+Trajectory inWorldOf(const TrajectoryScore& score, Trajectory truth) {
+  const Eigen::Isometry3d T_estimate_truth = score.T_truth_estimate.inverse();
+  for (StampedPose& pose : truth) pose.T_world_body = T_estimate_truth * pose.T_world_body;
+  return truth;
+}
+
+[[noreturn]] void refuseEmptyLog(const fs::path& log, const Damage& damage, std::size_t frames) {
+  throw Error(log.string() + ": no camera images or depth in " +
+              std::to_string(damage.entries_read) + " entries" +
+              (frames > 0 ? " (" + std::to_string(frames) + " frames without either)" : "") +
+              (damage.detail.empty() ? "" : "; " + damage.detail) + "; see: colonnade inspect " +
+              log.string());
+}
+
+ExitCode run(const RunArguments& arguments) {
+  cv::setNumThreads(1);  // one frame is too little work to share; results never depend on it
+  const RunOptions options = readOptions(arguments);
+  Trajectory truth;
+  if (!arguments.ground_truth.empty()) truth = readTum(arguments.ground_truth);
+  RawlogSource source(arguments.log, options.source);
+  Session session(options.session, makeEdgeLineBackend(arguments.backend, options.session.edges));
+
+  const fs::path folder = makeResultsFolder(arguments.output, arguments.log);
+  writeFileAtomically(folder / "config.ini", effectiveConfig(options));
+  MapRecorder maps(folder, options.maps, options.scans);
+  RunRecorder recorder;
+  RunSummary summary;
+  Progress progress;
+  const InterruptGuard interrupt;
+  const auto start = std::chrono::steady_clock::now();
+
+  session.run(source, [&](const Frame& frame, const StepReport& report, const Session& now) {
+    recorder.add(frame, report, now.filter());
+    maps.add(frame, now.filter().pose(), now.filter().poseCovariance(),
+             report.motion.T_previous_robot, report.motion.covariance);
+    progress.show(source.progress(), recorder.frames(),
+                  std::to_string(now.filter().state().blocks.size()) + " landmarks");
+    return !interrupt.requested();
+  });
+  progress.finish();
+  summary.wall_seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  summary.damage = source.damage();
+  summary.interrupted = interrupt.requested();
+  if (recorder.framesWithCamera() == 0) {
+    fs::remove(folder / "config.ini");
+    std::error_code not_empty;
+    fs::remove(folder, not_empty);
+    refuseEmptyLog(arguments.log, summary.damage, recorder.frames());
+  }
+
+  summary.frames = recorder.frames();
+  for (const auto& [reason, count] : summary.damage.skipped) summary.frames += count;
+  summary.landmarks = session.map();
+  summary.axes = session.axisCount();
+  if (!truth.empty())
+    summary.score = evaluateTrajectory(recorder.trajectory(), truth, {}, recorder.covariances());
+
+  recorder.write(folder);
+  writeLandmarksCsv(folder / "landmarks.csv", summary.landmarks);
+  MapContents contents;
+  contents.title = arguments.log.filename().string();
+  contents.landmarks = summary.landmarks;
+  contents.trajectory = recorder.trajectory();
+  if (summary.score) contents.ground_truth = inWorldOf(*summary.score, truth);
+  summary.maps = maps.finish(contents);
+  const auto json = toJson(summary, recorder, session.filter().health());
+  writeFileAtomically(folder / "summary.json", json.dump(2) + "\n");
+
+  std::printf("%sresults    %s\n", toText(json).c_str(), folder.c_str());
+  for (const std::string& reason : summary.maps.left_out)
+    std::fprintf(stderr, "left out: %s\n", reason.c_str());
+  if (summary.interrupted) {
+    std::fprintf(stderr, "interrupted after %zu frames\n", recorder.frames());
+    return ExitCode::kInterrupted;
+  }
+  if (!summary.damage.any()) return ExitCode::kDone;
+  if (!summary.damage.detail.empty())
+    std::fprintf(stderr, "%s: %s\n", arguments.log.c_str(), summary.damage.detail.c_str());
+  for (const auto& [reason, count] : summary.damage.skipped)
+    std::fprintf(stderr, "%s: %zu skipped: %s\n", arguments.log.c_str(), count, reason.c_str());
+  return ExitCode::kLossy;
+}
+
+}  // namespace
+
+Action addRun(CLI::App& verb) {
+  const auto arguments = std::make_shared<RunArguments>();
+  verb.add_option("LOG", arguments->log, "rawlog, plain or gz")->required();
+  verb.add_option("-c,--config", arguments->config,
+                  "INI file; what it does not name stays default");
+  verb.add_option("-o,--output", arguments->output, "new folder; default: LOG's stem + _results");
+  verb.add_option("--backend", arguments->backend, "image stage")->capture_default_str();
+  verb.add_option("--ground-truth", arguments->ground_truth, "robot poses, TUM file: adds a score");
+  verb.add_option("--set", arguments->assignments, "Section.key=value, wins over the file");
+  verb.footer(
+      "Examples:\n"
+      "  colonnade run rawlogs/corridor.rawlog\n"
+      "  colonnade run corridor.rawlog -o map --ground-truth corridor_ground_truth.tum\n"
+      "  colonnade run corridor.rawlog --set Filter.invariant=false --set Axes.enabled=false");
+  return [arguments] { return run(*arguments); };
+}
+
+}  // namespace colonnade

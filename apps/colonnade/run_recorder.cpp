@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "run_recorder.hpp"
+
+#include "colonnade/base/atomic_file.hpp"
+#include "colonnade/base/text.hpp"
+
+namespace colonnade {
+
+void RunRecorder::add(const Frame& frame, const StepReport& report, const EkfSlam& filter) {
+  const StampedPose pose{frame.stamp_s, filter.pose().toIsometry3()};
+  if (!trajectory_.empty())
+    path_length_m_ +=
+        (pose.T_world_body.translation() - trajectory_.back().T_world_body.translation()).norm();
+  trajectory_.push_back(pose);
+  covariances_.push_back({frame.stamp_s, filter.poseCovariance()});
+  times_.push_back(report.times_ms);
+  events_.insert(events_.end(), report.events.begin(), report.events.end());
+  const Detections& detections = report.detections;
+  for (const Detection& detection : detections)
+    if (!detection.accepted())
+      events_.push_back({frame.stamp_s, frame.index, std::string("refusal"), std::nullopt,
+                         std::string(name(detection.kind())) + ": " + detection.refusal});
+  if (report.motion.source == MotionSource::kConstantVelocity)
+    events_.push_back({frame.stamp_s, frame.index, "coasting", std::nullopt, "no motion measured"});
+  if (report.motion.source != MotionSource::kNone) ++motion_sources_[name(report.motion.source)];
+  if (!frame.gray.empty() || !frame.depth_m.empty()) ++frames_with_camera_;
+}
+
+void RunRecorder::write(const std::filesystem::path& folder) const {
+  writeTum(folder / "trajectory.tum", trajectory_);
+  writeTum(folder / "trajectory_final.tum", trajectory_);
+  writeCovarianceCsv(folder / "trajectory_covariance.csv", covariances_);
+  std::string text = "stamp,frame,event,landmark,reason\n";
+  for (const Event& event : events_)
+    text += formatFixed(event.stamp_s, 6) + "," + std::to_string(event.frame) + "," + event.what +
+            "," + (event.landmark ? std::to_string(number(*event.landmark)) : "") + "," +
+            event.reason + "\n";
+  writeFileAtomically(folder / "events.csv", text);
+}
+
+double RunRecorder::duration() const {
+  return trajectory_.empty() ? 0.0 : trajectory_.back().stamp_s - trajectory_.front().stamp_s;
+}
+
+}  // namespace colonnade

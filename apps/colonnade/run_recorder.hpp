@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "colonnade/base/trajectory.hpp"
+#include "colonnade/evaluation/covariance_csv.hpp"
+#include "colonnade/slam/session.hpp"
+
+namespace colonnade {
+
+/// What a run leaves beside its maps: trajectory, covariances, events and timings. Grows by some
+/// hundred bytes a frame.
+class RunRecorder {
+ public:
+  void add(const Frame& frame, const StepReport& report, const EkfSlam& filter);
+  /// trajectory.tum, trajectory_covariance.csv, trajectory_final.tum, events.csv.
+  void write(const std::filesystem::path& folder) const;
+
+  std::size_t frames() const { return trajectory_.size(); }
+  std::size_t framesWithCamera() const { return frames_with_camera_; }
+  double duration() const;
+  double pathLength() const { return path_length_m_; }
+  const Trajectory& trajectory() const { return trajectory_; }
+  const std::vector<StampedCovariance>& covariances() const { return covariances_; }
+  /// Frames by what told their motion.
+  const std::map<std::string, std::size_t>& motionSources() const { return motion_sources_; }
+  const std::vector<StageTimes>& times() const { return times_; }
+
+ private:
+  Trajectory trajectory_;
+  std::vector<StampedCovariance> covariances_;
+  std::vector<Event> events_;
+  std::vector<StageTimes> times_;
+  std::map<std::string, std::size_t> motion_sources_;
+  std::size_t frames_with_camera_ = 0;
+  double path_length_m_ = 0.0;
+};
+
+}  // namespace colonnade

@@ -1,0 +1,138 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "summary.hpp"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+
+#include "colonnade/base/text.hpp"
+#include "colonnade/evaluation/score_json.hpp"
+
+namespace colonnade {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <class Stage>
+Json statistics(const std::vector<StageTimes>& times, Stage stage) {
+  std::vector<double> values;
+  for (const StageTimes& t : times) values.push_back(stage(t));
+  std::sort(values.begin(), values.end());
+  const auto at = [&](double share) {
+    return values.empty()
+               ? 0.0
+               : values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+  };
+  return {{"median", at(0.5)}, {"p95", at(0.95)}, {"max", at(1.0)}};
+}
+
+const char* name(LogEnding ending) {
+  switch (ending) {
+    case LogEnding::kNotReached:
+      return "not reached";
+    case LogEnding::kEnd:
+      return "end";
+    case LogEnding::kCut:
+      return "cut";
+    case LogEnding::kDamaged:
+      return "damaged";
+  }
+  return "";
+}
+
+/// The most frequent source of motion; the counts stand beside it.
+std::string mainSource(const std::map<std::string, std::size_t>& sources) {
+  const auto most = std::max_element(sources.begin(), sources.end(),
+                                     [](auto& a, auto& b) { return a.second < b.second; });
+  return most == sources.end() ? "none" : most->first;
+}
+
+Json countLandmarks(const LandmarkMap& landmarks) {
+  const auto count = [&](LandmarkKind kind) {
+    return std::count_if(landmarks.begin(), landmarks.end(),
+                         [&](const auto& record) { return record.kind == kind; });
+  };
+  const auto paired = std::count_if(landmarks.begin(), landmarks.end(),
+                                    [](const auto& record) { return record.pair_id.has_value(); });
+  return {{"pillar", count(LandmarkKind::kPillarEdge)},
+          {"pillar_pairs", paired / 2},
+          {"floor_edge", count(LandmarkKind::kFloorEdge)},
+          {"depth_slope", count(LandmarkKind::kDepthSlope)}};
+}
+
+double peakResidentMegabytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+}  // namespace
+
+Json toJson(const RunSummary& summary, const RunRecorder& recorder,
+            const InnovationHealth& health) {
+  const auto& times = recorder.times();
+  Json json;
+  json["frames"] = summary.frames;
+  json["frames_processed"] = recorder.frames();
+  json["interrupted"] = summary.interrupted;
+  json["duration_s"] = recorder.duration();
+  json["path_length_m"] = recorder.pathLength();
+  json["motion_source"] = mainSource(recorder.motionSources());
+  json["motion_sources"] = recorder.motionSources();
+  json["landmarks"] = countLandmarks(summary.landmarks);
+  json["axes"] = summary.axes;
+  json["loop_closings"] = 0;
+  if (summary.score) {
+    json["trajectory"] = toJson(*summary.score);
+    json["trajectory_final"] = toJson(*summary.score);
+  }
+  json["timing_ms"] = {
+      {"frame", statistics(times, [](const StageTimes& t) { return t.frame(); })},
+      {"read", statistics(times, [](const StageTimes& t) { return t.read; })},
+      {"motion", statistics(times, [](const StageTimes& t) { return t.motion; })},
+      {"edges", statistics(times, [](const StageTimes& t) { return t.edges; })},
+      {"detectors", statistics(times, [](const StageTimes& t) { return t.detectors; })},
+      {"filter", statistics(times, [](const StageTimes& t) { return t.filter; })}};
+  json["realtime_factor"] =
+      summary.wall_seconds > 0.0 ? recorder.duration() / summary.wall_seconds : 0.0;
+  json["peak_rss_mb"] = peakResidentMegabytes();
+  for (const LandmarkKind kind :
+       {LandmarkKind::kPillarEdge, LandmarkKind::kFloorEdge, LandmarkKind::kDepthSlope})
+    json["nis_mean"][colonnade::name(kind)] = health.meanNis(kind);
+  json["refused"] = health.refused();
+  json["damage"] = {
+      {"ending", name(summary.damage.ending)}, {"entries_read", summary.damage.entries_read},
+      {"entry", summary.damage.ending_entry},  {"offset", summary.damage.ending_offset},
+      {"detail", summary.damage.detail},       {"skipped", summary.damage.skipped}};
+  json["left_out"] = summary.maps.left_out;
+  return json;
+}
+
+std::string toText(const Json& json) {
+  const auto count = [&](const char* kind) {
+    return std::to_string(json["landmarks"][kind].get<std::size_t>());
+  };
+  std::string text;
+  text += "frames     " + std::to_string(json["frames_processed"].get<std::size_t>()) + " of " +
+          std::to_string(json["frames"].get<std::size_t>()) + ", " +
+          formatFixed(json["duration_s"], 1) + " s, path " + formatFixed(json["path_length_m"], 2) +
+          " m\n";
+  text += "motion     " + json["motion_source"].get<std::string>() + "\n";
+  text += "landmarks  " + count("pillar") + " pillar edges (" + count("pillar_pairs") +
+          " pairs), " + count("floor_edge") + " floor edges, " + count("depth_slope") +
+          " depth-slope corners, " + std::to_string(json["axes"].get<std::size_t>()) +
+          " building axes\n";
+  text += "time       " + formatFixed(json["timing_ms"]["frame"]["median"], 1) +
+          " ms a frame (median), " + formatFixed(json["timing_ms"]["frame"]["p95"], 1) +
+          " ms (95 %), " + formatFixed(json["realtime_factor"], 1) + " times real time, " +
+          formatFixed(json["peak_rss_mb"], 0) + " MB\n";
+  if (json.contains("trajectory"))
+    text += "accuracy   ATE " + formatFixed(json["trajectory"]["ate_rmse_m"], 3) + " m (" +
+            json["trajectory"]["alignment"].get<std::string>() + "-aligned, no scale), heading " +
+            formatFixed(json["trajectory"]["heading_rmse_deg"], 2) + " degrees, coverage " +
+            formatFixed(100.0 * json["trajectory"]["coverage"].get<double>(), 0) + " %\n";
+  return text;
+}
+
+}  // namespace colonnade

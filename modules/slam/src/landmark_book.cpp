@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "colonnade/slam/landmark_book.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace colonnade {
+namespace {
+
+/// Widens the seen part of a floor edge by what this detection shows of it.
+void widenExtent(const Block& block, const EkfSlam& filter, const Detection& detection,
+                 Evidence& evidence) {
+  const BlockVector y = filter.state().values(block);
+  const Eigen::Vector2d m(std::cos(y(2)), std::sin(y(2)));
+  const Eigen::Vector2d along(-m.y(), m.x());
+  const Eigen::Vector2d foot = y.head<2>() + y(3) * m;
+  const double a = along.dot(transform(filter.pose(), detection.p_robot_a) - foot);
+  const double b = along.dot(transform(filter.pose(), detection.p_robot_b) - foot);
+  const bool is_first = evidence.observations == 0;
+  evidence.along_min_m = std::min({is_first ? a : evidence.along_min_m, a, b});
+  evidence.along_max_m = std::max({is_first ? a : evidence.along_max_m, a, b});
+}
+
+constexpr int kPairSightings = 3;
+
+}  // namespace
+
+void LandmarkBook::observe(LandmarkId landmark, const Detection& detection, double stamp_s,
+                           EkfSlam& filter) {
+  Evidence& evidence = filter.evidence(landmark);
+  const Block& block = *filter.state().find(landmark);
+  if (block.block_kind == BlockKind::kFloorLine) widenExtent(block, filter, detection, evidence);
+  if (evidence.observations == 0) evidence.first_stamp_s = stamp_s;
+  evidence.last_stamp_s = stamp_s;
+  ++evidence.observations;
+  pages_[landmark].gradient_balance += detection.appearance.gradient_sign;
+}
+
+void LandmarkBook::observePair(LandmarkId a, LandmarkId b) {
+  ++pages_[a].partners[b];
+  ++pages_[b].partners[a];
+}
+
+void LandmarkBook::forget(LandmarkId landmark) {
+  pages_.erase(landmark);
+  for (auto& [id, page] : pages_) page.partners.erase(landmark);
+}
+
+bool LandmarkBook::looksLike(LandmarkId landmark, const Detection& detection) const {
+  const auto page = pages_.find(landmark);
+  if (page == pages_.end() || detection.kind() != LandmarkKind::kPillarEdge) return true;
+  return page->second.gradient_balance * detection.appearance.gradient_sign >= 0;
+}
+
+std::optional<LandmarkId> LandmarkBook::bestPartner(LandmarkId landmark) const {
+  const auto page = pages_.find(landmark);
+  if (page == pages_.end() || page->second.partners.empty()) return std::nullopt;
+  const auto& partners = page->second.partners;
+  const auto best = std::max_element(partners.begin(), partners.end(),
+                                     [](auto& a, auto& b) { return a.second < b.second; });
+  if (best->second < kPairSightings) return std::nullopt;
+  return best->first;
+}
+
+void LandmarkBook::fillPairs(LandmarkMap& map) const {
+  for (LandmarkRecord& record : map) {
+    const auto partner = bestPartner(record.id);
+    const bool in_map = partner && std::any_of(map.begin(), map.end(), [&](const auto& other) {
+                          return other.id == *partner;
+                        });
+    if (in_map && bestPartner(*partner) == record.id) record.pair_id = partner;
+  }
+}
+
+}  // namespace colonnade
