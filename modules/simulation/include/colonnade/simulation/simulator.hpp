@@ -14,7 +14,7 @@ namespace colonnade {
 struct SimulationOptions {
   std::uint64_t seed = 1;
   int gz_level = 6;  ///< of the log: 0 plain, 1 fast ... 9 small
-  std::function<void(std::size_t done, std::size_t total)> progress;  ///< after every frame
+  std::function<void(std::size_t done, std::size_t total)> progress = {};  ///< after every frame
 };
 
 struct SimulationSummary {
