@@ -10,6 +10,7 @@
 
 #include "byte_stream.hpp"
 #include "colonnade/frames/frame_source.hpp"
+#include "entry_bytes.hpp"
 
 namespace colonnade {
 
@@ -20,8 +21,10 @@ struct Entry {
   mrpt::serialization::CSerializable::Ptr object;
 };
 
-/// Reads the top-level objects of a rawlog one by one and tells how the log ends. Never throws
-/// after construction for bad bytes: they end the log.
+/// Reads the top-level objects of a rawlog one by one and tells how the log ends. Every object of a
+/// class frames are made of is checked by ObjectWalker before MRPT builds it. Never throws after
+/// construction for bad bytes: an object MRPT refuses although its frame is sound is skipped and
+/// counted, anything else ends the log.
 class EntryReader {
  public:
   /// Throws Error when the file cannot be read, is empty or does not begin with an MRPT object.
@@ -30,16 +33,17 @@ class EntryReader {
   std::optional<Entry> next();
   const Damage& damage() const { return damage_; }
   Damage& damage() { return damage_; }
-  const ByteStream& bytes() const { return bytes_; }
+  const ByteStream& stream() const { return stream_; }
 
  private:
-  std::optional<Entry> read();
+  /// The object at the cursor; null when MRPT cannot build it. Throws StreamEnded and BadBytes.
+  mrpt::serialization::CSerializable::Ptr readObject();
   void finish(LogEnding ending, const std::string& detail);
+  void finishAtEndOfStream(bool inside_object);
 
-  std::filesystem::path path_;
-  ByteStream bytes_;
+  ByteStream stream_;
+  EntryBytes bytes_;
   Damage damage_;
-  std::optional<Entry> first_;
 };
 
 }  // namespace colonnade

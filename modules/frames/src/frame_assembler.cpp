@@ -58,6 +58,7 @@ FrameAssembler::~FrameAssembler() = default;
 
 void FrameAssembler::add(const Entry& entry) {
   using namespace mrpt::obs;
+  newest_entry_ = entry.number;
   if (const auto actions = std::dynamic_pointer_cast<CActionCollection>(entry.object))
     addActions(*actions);
   else if (const auto frame = std::dynamic_pointer_cast<CSensoryFrame>(entry.object))
@@ -77,12 +78,17 @@ void FrameAssembler::addActions(const mrpt::obs::CActionCollection& actions) {
       mrpt::poses::CPose2D mean;
       mrpt::math::CMatrixDouble33 covariance;
       flat->poseChange->getCovarianceAndMean(covariance, mean);
-      if (!isFinite(toPose2(mean))) return skip("motion with a value that is not finite");
-      return sum_.add(toPose2(mean), usable(covariance));
+      // Of odometry MRPT stores the reading and draws particles anew on loading when the model is
+      // Thrun's: the reading is exact, the particles' covariance would change from load to load.
+      using Movement = mrpt::obs::CActionRobotMovement2D;
+      const bool odometry = flat->estimationMethod == Movement::emOdometry;
+      const bool drawn =
+          odometry && flat->motionModelConfiguration.modelSelection != Movement::mmGaussian;
+      if (odometry) mean = flat->rawOdometryIncrementReading;
+      return addMotion(toPose2(mean), drawn ? std::nullopt : usable(covariance));
     }
     if (const auto* solid = dynamic_cast<const mrpt::obs::CActionRobotMovement3D*>(action)) {
       const Pose2 motion = planarPart(toIsometry(solid->poseChange.mean));
-      if (!isFinite(motion)) return skip("motion with a value that is not finite");
       const auto& all = solid->poseChange.cov;  // x y z yaw pitch roll
       mrpt::math::CMatrixDouble33 covariance;
       constexpr std::array<int, 3> kPlanar{0, 1, 3};
@@ -90,9 +96,16 @@ void FrameAssembler::addActions(const mrpt::obs::CActionCollection& actions) {
         for (int column = 0; column < 3; ++column)
           covariance(row, column) = all(kPlanar[static_cast<std::size_t>(row)],
                                         kPlanar[static_cast<std::size_t>(column)]);
-      return sum_.add(motion, usable(covariance));
+      return addMotion(motion, usable(covariance));
     }
   }
+}
+
+void FrameAssembler::addMotion(const Pose2& T_before_after,
+                               const std::optional<Eigen::Matrix3d>& covariance) {
+  if (!isFinite(T_before_after)) return skip("motion with a value that is not finite");
+  motion_.add(T_before_after, covariance);
+  motion_seen_ = true;
 }
 
 bool FrameAssembler::isChosenCamera(const CObservation& observation) {
@@ -152,7 +165,9 @@ void FrameAssembler::addSensoryFrame(const mrpt::obs::CSensoryFrame& frame) {
   }
   if (!any) return;
   candidate.stamp_s = candidate.image || candidate.scan ? image_s : any_s;
-  candidate.odometry = sum_.take();
+  candidate.motion = motion_;
+  candidate.entry = newest_entry_;
+  motion_ = MotionSum{};
   waiting_.push_back(std::move(candidate));
 }
 
@@ -190,7 +205,9 @@ void FrameAssembler::insert(Candidate candidate) {
 }
 
 bool FrameAssembler::isReady(const Candidate& candidate) const {
-  if (finishing_ || candidate.from_sensory_frame || waiting_.size() > kMostWaiting) return true;
+  if (finishing_ || waiting_.size() > kMostWaiting) return true;
+  // The first sensory frame waits for the next entry: an action there tells that there is odometry.
+  if (candidate.from_sensory_frame) return motion_seen_ || newest_entry_ > candidate.entry;
   const bool late = newest_s_ > candidate.stamp_s + kLate_s;
   const bool whole = candidate.scan && (candidate.scan->hasIntensityImage || candidate.image);
   if (!whole && !late) return false;
@@ -210,6 +227,8 @@ std::optional<Frame> FrameAssembler::take() {
 }
 
 std::optional<Frame> FrameAssembler::build(Candidate& candidate) {
+  motion_delivered_.add(candidate.motion);
+  T_odom_robot_ = T_odom_robot_ * candidate.motion.T_start_end();
   const bool depth_only = candidate.scan && !candidate.scan->hasIntensityImage && !candidate.image;
   if (depth_only && camera_label_) {
     ++damage_.ignored["depth without an image within 0.02 s"];
@@ -241,7 +260,9 @@ std::optional<Frame> FrameAssembler::build(Candidate& candidate) {
 
   if (candidate.landmarks) frame.range_bearing = toScan(*candidate.landmarks);
   if (candidate.from_sensory_frame) {
-    frame.odometry = candidate.odometry;
+    if (motion_seen_)
+      frame.odometry = OdometryReading{T_odom_robot_, motion_delivered_.covariance()};
+    motion_delivered_ = MotionSum{};
   } else if (const auto T_odom_robot = track_.at(frame.stamp_s)) {
     frame.odometry = OdometryReading{*T_odom_robot, std::nullopt};
     track_.forgetBefore(frame.stamp_s);

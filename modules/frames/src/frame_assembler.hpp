@@ -46,11 +46,13 @@ class FrameAssembler {
     std::shared_ptr<mrpt::obs::CObservation3DRangeScan> scan;
     std::shared_ptr<mrpt::obs::CObservationImage> image;
     std::shared_ptr<mrpt::obs::CObservationBearingRange> landmarks;
-    std::optional<OdometryReading> odometry;
+    MotionSum motion;  ///< since the former sensory frame
     bool from_sensory_frame = false;
+    std::size_t entry = 0;
   };
 
   void addActions(const mrpt::obs::CActionCollection& actions);
+  void addMotion(const Pose2& T_before_after, const std::optional<Eigen::Matrix3d>& covariance);
   void addSensoryFrame(const mrpt::obs::CSensoryFrame& frame);
   void addObservation(const std::shared_ptr<mrpt::obs::CObservation>& observation);
   /// Puts an observation into a candidate that lacks its kind. False: it is of no use for frames.
@@ -65,7 +67,11 @@ class FrameAssembler {
   Damage& damage_;
   std::filesystem::path images_folder_;
   FrameBuilder builder_;
-  OdometrySum sum_;
+  MotionSum motion_;            ///< of the actions since the last sensory frame
+  MotionSum motion_delivered_;  ///< since the last frame that was delivered
+  Pose2 T_odom_robot_;
+  bool motion_seen_ = false;
+  std::size_t newest_entry_ = 0;
   OdometryTrack track_;
   std::deque<Candidate> waiting_;            ///< in the order of their stamps
   std::optional<std::string> camera_label_;  ///< of the camera in use

@@ -3,32 +3,25 @@
 #include "odometry_track.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "colonnade/base/angle.hpp"
 
 namespace colonnade {
 
-void OdometrySum::add(const Pose2& T_before_after,
-                      const std::optional<Eigen::Matrix3d>& covariance) {
-  any_ = true;
-  Eigen::Matrix3d J_taken, J_increment;
-  T_taken_robot_ = compose(T_taken_robot_, T_before_after, &J_taken, &J_increment);
-  T_odom_robot_ = T_odom_robot_ * T_before_after;
+void MotionSum::add(const Pose2& T_before_after, const std::optional<Eigen::Matrix3d>& covariance) {
+  Eigen::Matrix3d J_sum, J_increment;
+  T_start_end_ = compose(T_start_end_, T_before_after, &J_sum, &J_increment);
   if (covariance)
-    covariance_ = J_taken * covariance_ * J_taken.transpose() +
+    covariance_ = J_sum * covariance_ * J_sum.transpose() +
                   J_increment * *covariance * J_increment.transpose();
   else
     covariance_known_ = false;
 }
 
-std::optional<OdometryReading> OdometrySum::take() {
-  if (!any_) return std::nullopt;
-  OdometryReading reading{T_odom_robot_, std::nullopt};
-  if (covariance_known_) reading.increment_covariance = covariance_;
-  T_taken_robot_ = Pose2{};
-  covariance_.setZero();
-  covariance_known_ = true;
-  return reading;
+std::optional<Eigen::Matrix3d> MotionSum::covariance() const {
+  if (!covariance_known_) return std::nullopt;
+  return covariance_;
 }
 
 bool OdometryTrack::add(double stamp_s, const Pose2& T_odom_robot) {

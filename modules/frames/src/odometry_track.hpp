@@ -9,19 +9,19 @@
 
 namespace colonnade {
 
-/// Adds up motion increments (CActionRobotMovement2D) between frames.
-class OdometrySum {
+/// Motion increments (CActionRobotMovement2D) added up.
+class MotionSum {
  public:
   /// `covariance` is in the axes of the robot before the increment; nothing: the log states none.
   void add(const Pose2& T_before_after, const std::optional<Eigen::Matrix3d>& covariance);
-  /// The pose now, with the covariance of the motion since the former call; nothing before the
-  /// first increment.
-  std::optional<OdometryReading> take();
+  void add(const MotionSum& later) { add(later.T_start_end_, later.covariance()); }
+
+  const Pose2& T_start_end() const { return T_start_end_; }
+  /// Of the whole motion, in the axes of its start; nothing when one increment stated none.
+  std::optional<Eigen::Matrix3d> covariance() const;
 
  private:
-  bool any_ = false;
-  Pose2 T_odom_robot_;
-  Pose2 T_taken_robot_;
+  Pose2 T_start_end_;
   Eigen::Matrix3d covariance_ = Eigen::Matrix3d::Zero();
   bool covariance_known_ = true;
 };

@@ -35,6 +35,6 @@ std::optional<Frame> RawlogSource::next() {
 }
 
 const Damage& RawlogSource::damage() const { return impl_->reader.damage(); }
-double RawlogSource::progress() const { return impl_->reader.bytes().progress(); }
+double RawlogSource::progress() const { return impl_->reader.stream().progress(); }
 
 }  // namespace colonnade
