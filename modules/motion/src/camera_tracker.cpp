@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "opencv_odometry.hpp"
 #include "rgbd_alignment.hpp"
 #include "rgbd_pyramid.hpp"
 #include "se3.hpp"
@@ -28,6 +29,8 @@ Eigen::Isometry3d scaledMotion(const Eigen::Isometry3d& T, double factor) {
 
 struct CameraTracker::Impl {
   explicit Impl(const MotionOptions& motion_options) : options(motion_options) {
+    alignment_options.use_photometric = options.use_photometric;
+    alignment_options.use_surfaces = options.use_surfaces;
     alignment_options.photometric_correlation = options.photometric_correlation;
     alignment_options.surface_correlation = options.surface_correlation;
     alignment_options.weak_direction_ratio = options.weak_direction_ratio;
@@ -77,6 +80,25 @@ struct CameraTracker::Impl {
     covariance_key_previous.setZero();
   }
 
+  Alignment estimate(const RgbdPyramid& current,
+                     const std::vector<Eigen::Isometry3d>& guesses) const {
+    if (options.engine == "direct") return align(*key, current, guesses, alignment_options);
+    const auto T = openCvOdometry(options.engine, previous, current,
+                                  T_key_previous.inverse() * guesses.front());
+    if (!T) return {};
+    return evaluateAt(*key, current, T_key_previous * *T, alignment_options);
+  }
+
+  /// What no residual tells: shutter, unsynchronised images, calibration. Grows with the motion.
+  Matrix6 modelError(const Eigen::Isometry3d& T_previous_camera) const {
+    const double way = options.model_error * T_previous_camera.translation().norm();
+    const double turn = options.model_error * Eigen::AngleAxisd(T_previous_camera.linear()).angle();
+    Matrix6 covariance = Matrix6::Zero();
+    covariance.diagonal().head<3>().setConstant(way * way + 1e-8);
+    covariance.diagonal().tail<3>().setConstant(turn * turn + 1e-8);
+    return covariance;
+  }
+
   bool keyIsWornOut(const Alignment& alignment) const {
     const auto& T = alignment.T_reference_current;
     return T.translation().norm() > options.keyframe_distance_m ||
@@ -91,13 +113,14 @@ struct CameraTracker::Impl {
     for (int attempt = 0; attempt < 2; ++attempt) {
       const std::vector<Eigen::Isometry3d> guesses = {T_key_previous * predicted(dt_s),
                                                       T_key_previous};
-      const Alignment alignment = align(*key, current, guesses, alignment_options);
+      const Alignment alignment = estimate(current, guesses);
       const Eigen::Isometry3d T_previous_camera =
           T_key_previous.inverse() * alignment.T_reference_current;
       if (isSound(alignment) && isPlausible(T_previous_camera, dt_s)) {
         const Matrix6 Ad = adjoint(T_previous_camera.inverse());
         motion.T_previous_camera = T_previous_camera;
-        motion.covariance = alignment.covariance + Ad * covariance_key_previous * Ad.transpose();
+        motion.covariance = alignment.covariance + Ad * covariance_key_previous * Ad.transpose() +
+                            modelError(T_previous_camera);
         motion.source = sourceOf(alignment);
         T_key_previous = alignment.T_reference_current;
         covariance_key_previous = alignment.covariance;

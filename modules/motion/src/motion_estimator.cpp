@@ -38,7 +38,7 @@ struct MotionEstimator::Impl {
   bool has_previous = false;
   double previous_stamp_s = 0.0;
   std::optional<OdometryReading> previous_odometry;
-  MountingAtFrame previous_mounting;
+  Eigen::Isometry3d T_robot_camera_previous = Eigen::Isometry3d::Identity();
   Pose2 previous_increment;  ///< for constant velocity
   double previous_dt_s = 0.0;
   double coasted_s = 0.0;
@@ -71,7 +71,7 @@ struct MotionEstimator::Impl {
     if (mayUseVisual() && !frame.gray.empty() && !frame.depth_m.empty()) {
       const CameraMotion& motion = tracker->track(frame);
       if (motion.source != MotionSource::kNone) {
-        return reduceToPlane(motion, previous_mounting, mounting);
+        return reduceToPlane(motion, T_robot_camera_previous, mounting);
       }
     }
     return coast(dt_s);
@@ -86,7 +86,7 @@ MotionEstimator::~MotionEstimator() = default;
 MotionIncrement MotionEstimator::increment(const Frame& frame,
                                            const MountingUncertainty& uncertainty) {
   Impl& self = *impl_;
-  const MountingAtFrame mounting{frame.T_robot_camera, uncertainty.covariance};
+  const MountingAtFrame mounting{frame.T_robot_camera, uncertainty.step_covariance};
   MotionIncrement result;
   if (self.has_previous) {
     const double dt_s = std::max(0.0, frame.stamp_s - self.previous_stamp_s);
@@ -102,7 +102,7 @@ MotionIncrement MotionEstimator::increment(const Frame& frame,
   self.has_previous = true;
   self.previous_stamp_s = frame.stamp_s;
   self.previous_odometry = frame.odometry;
-  self.previous_mounting = mounting;
+  self.T_robot_camera_previous = frame.T_robot_camera;
   return result;
 }
 

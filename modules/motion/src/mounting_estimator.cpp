@@ -3,16 +3,21 @@
 #include "colonnade/motion/mounting_estimator.hpp"
 
 #include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
 #include <optional>
 
+#include "colonnade/frames/floor_plane.hpp"
 #include "floor_fit.hpp"
-#include "levelling.hpp"
 #include "se3.hpp"
 
 namespace colonnade {
 namespace {
 
-constexpr double kGate = 16.27;       ///< chi squared, 3 degrees of freedom, 0.1 %
+constexpr double kGate = 16.27;            ///< chi squared, 3 degrees of freedom, 0.1 %
+constexpr double kSystematicTilt = 0.006;  ///< rad: distortion of the depth, the same in each frame
+constexpr double kSystematicHeight_m = 0.012;
+constexpr double kSteepest = 0.98;    ///< cosine: a camera nearer to the vertical has no heading
 constexpr int kRefusalsToReset = 10;  ///< floor fits refused in a row before the floor is believed
 
 }  // namespace
@@ -27,11 +32,12 @@ struct MountingEstimator::Impl {
   bool has_state = false;
   Eigen::Vector3d up = -Eigen::Vector3d::UnitY();  ///< in the optical frame
   double height_m = 0.0;
-  Eigen::Matrix3d P = Eigen::Matrix3d::Zero();  ///< about the robot's x and y, height
+  Eigen::Matrix3d P = Eigen::Matrix3d::Zero();     ///< about the robot's x and y, height
+  Eigen::Matrix3d step = Eigen::Matrix3d::Zero();  ///< covariance of this frame's change
   int refused = 0;
   MountingUncertainty uncertainty;
 
-  Eigen::Isometry3d levelled() const { return levelledMounting(up, height_m); }
+  Eigen::Isometry3d levelled() const { return cameraAboveFloor(up, height_m); }
 
   void start(const Frame& frame) {
     up = frame.T_robot_camera.linear().transpose() * Eigen::Vector3d::UnitZ();
@@ -39,6 +45,15 @@ struct MountingEstimator::Impl {
     P.setZero();
     P.diagonal() << 0.03, 0.03, 0.04;  // 10 degrees, 0.2 m
     has_state = true;
+    if (frame.depth_m.empty() || !frame.camera.isCalibrated()) return;
+    // The log's mounting may be a guess: let the whole depth image say where the floor is.
+    FloorPrior prior;
+    prior.up_camera = up;
+    const auto floor = fitFloorPlane(frame.depth_m, frame.camera, prior);
+    if (!floor) return;
+    up = floor->normal_camera;
+    height_m = floor->height_m;
+    P.diagonal() << 4e-4, 4e-4, 4e-4;
   }
 
   void predict(const CameraMotion& motion) {
@@ -61,8 +76,9 @@ struct MountingEstimator::Impl {
     Eigen::Matrix<double, 3, 6> G = Eigen::Matrix<double, 3, 6>::Zero();
     G.block<2, 3>(0, 3) = T_robot_camera.linear().topRows<2>();
     G.block<1, 3>(2, 0) = T_robot_camera.linear().row(2);
-    P = F * P * F.transpose() + G * motion.covariance * G.transpose();
-    P.diagonal() += Eigen::Vector3d(1e-6, 1e-6, 4e-6);
+    step = G * motion.covariance * G.transpose();
+    step.diagonal() += Eigen::Vector3d(1e-6, 1e-6, 4e-6);
+    P = F * P * F.transpose() + step;
   }
 
   bool update(const FloorFit& fit) {
@@ -89,6 +105,7 @@ struct MountingEstimator::Impl {
     height_m += dx.z();
     const Eigen::Matrix3d A = Eigen::Matrix3d::Identity() - K;
     P = A * P * A.transpose() + K * R * K.transpose();
+    step = K * S * K.transpose();
     return true;
   }
 };
@@ -119,8 +136,11 @@ void MountingEstimator::refine(Frame& frame) {
     const auto fit = fitFloorNear(frame.depth_m, frame.camera, self.up, self.height_m, search);
     if (fit) self.uncertainty.floor_seen = self.update(*fit);
   }
-  frame.T_robot_camera = self.levelled();
   self.uncertainty.covariance = self.P;
+  self.uncertainty.covariance.diagonal() +=
+      Eigen::Vector3d(kSystematicTilt, kSystematicTilt, kSystematicHeight_m).cwiseAbs2();
+  self.uncertainty.step_covariance = self.step;
+  if (std::abs(self.up.z()) < kSteepest) frame.T_robot_camera = self.levelled();
 }
 
 const MountingUncertainty& MountingEstimator::uncertainty() const { return impl_->uncertainty; }

@@ -27,19 +27,32 @@ Eigen::Isometry3d disturbed(const Eigen::Isometry3d& T_robot_camera, const Eigen
   return T;
 }
 
+/// Position is taken where the camera is: its height would be a lever that turns every small
+/// disagreement of the two tilts into a step of the robot.
+Pose2 planarMotion(const Eigen::Isometry3d& before, const Eigen::Isometry3d& motion,
+                   const Eigen::Isometry3d& now) {
+  Pose2 T = planarPart(before * motion * now.inverse());
+  const Eigen::Vector2d p_before_camera = (before * motion.translation()).head<2>();
+  const Eigen::Vector2d p_now_camera = now.translation().head<2>();
+  const Eigen::Vector2d t = p_before_camera - T.rotation() * p_now_camera;
+  T.x = t.x();
+  T.y = t.y();
+  return T;
+}
+
 Eigen::Vector3d planarVector(const Eigen::Isometry3d& before, const Eigen::Isometry3d& motion,
                              const Eigen::Isometry3d& now) {
-  return planarPart(before * motion * now.inverse()).vector();
+  return planarMotion(before, motion, now).vector();
 }
 
 }  // namespace
 
-MotionIncrement reduceToPlane(const CameraMotion& motion, const MountingAtFrame& before,
+MotionIncrement reduceToPlane(const CameraMotion& motion, const Eigen::Isometry3d& before,
                               const MountingAtFrame& now) {
   const Eigen::Isometry3d& T = motion.T_previous_camera;
   MotionIncrement increment;
   increment.source = motion.source;
-  increment.T_previous_robot = planarPart(before.T_robot_camera * T * now.T_robot_camera.inverse());
+  increment.T_previous_robot = planarPart(before * T * now.T_robot_camera.inverse());
 
   // Central differences of the very function above, 12 columns of exact 3D geometry.
   constexpr double kStep = 1e-5;
@@ -50,23 +63,16 @@ MotionIncrement reduceToPlane(const CameraMotion& motion, const MountingAtFrame&
   Eigen::Matrix<double, 3, 6> J_motion;
   for (int i = 0; i < 6; ++i) {
     const Vector6 e = kStep * Vector6::Unit(i);
-    J_motion.col(i) =
-        wrapped(planarVector(before.T_robot_camera, T * expSe3(e), now.T_robot_camera) -
-                planarVector(before.T_robot_camera, T * expSe3(-e), now.T_robot_camera));
+    J_motion.col(i) = wrapped(planarVector(before, T * expSe3(e), now.T_robot_camera) -
+                              planarVector(before, T * expSe3(-e), now.T_robot_camera));
   }
-  Eigen::Matrix3d J_before;
   Eigen::Matrix3d J_now;
   for (int i = 0; i < 3; ++i) {
     const Eigen::Vector3d e = kStep * Eigen::Vector3d::Unit(i);
-    J_before.col(i) =
-        wrapped(planarVector(disturbed(before.T_robot_camera, e), T, now.T_robot_camera) -
-                planarVector(disturbed(before.T_robot_camera, -e), T, now.T_robot_camera));
-    J_now.col(i) =
-        wrapped(planarVector(before.T_robot_camera, T, disturbed(now.T_robot_camera, e)) -
-                planarVector(before.T_robot_camera, T, disturbed(now.T_robot_camera, -e)));
+    J_now.col(i) = wrapped(planarVector(before, T, disturbed(now.T_robot_camera, e)) -
+                           planarVector(before, T, disturbed(now.T_robot_camera, -e)));
   }
   increment.covariance = J_motion * motion.covariance * J_motion.transpose() +
-                         J_before * before.covariance * J_before.transpose() +
                          J_now * now.covariance * J_now.transpose();
   increment.covariance = 0.5 * (increment.covariance + increment.covariance.transpose()).eval();
   return increment;

@@ -10,16 +10,17 @@
 
 namespace colonnade {
 
-/// The mounting at one frame and the covariance of its rotations about the robot's x and y axes and
-/// of its height.
+/// The mounting at one frame and the covariance of the rotations about the robot's x and y axes and
+/// of the height by which it may have erred since the former frame.
 struct MountingAtFrame {
   Eigen::Isometry3d T_robot_camera = Eigen::Isometry3d::Identity();
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
 };
 
-/// The planar part of T_robot_camera(before) * T_previous_camera * T_robot_camera(now)^-1 with its
-/// covariance, which includes that of both mountings.
-MotionIncrement reduceToPlane(const CameraMotion& motion, const MountingAtFrame& before,
+/// The planar part of T_robot_camera_before * T_previous_camera * T_robot_camera(now)^-1, with the
+/// position taken at the camera, and its covariance, which includes that of the mounting.
+MotionIncrement reduceToPlane(const CameraMotion& motion,
+                              const Eigen::Isometry3d& T_robot_camera_before,
                               const MountingAtFrame& now);
 
 }  // namespace colonnade

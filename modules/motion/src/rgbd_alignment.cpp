@@ -27,8 +27,9 @@ struct System {
   Matrix8 H = Matrix8::Zero();
   Vector8 g = Vector8::Zero();
   int count = 0;
-  double sigma = 0.0;
-  double cost = 0.0;  ///< sum of robust costs
+  double sigma = 0.0;       ///< used for the weights, within bounds
+  double full_sigma = 0.0;  ///< as estimated
+  double cost = 0.0;        ///< sum of robust costs
 };
 
 // Scales are estimated, within bounds: a wrong pose must not turn everything into noise.
@@ -129,7 +130,9 @@ class Problem {
       rows_.push_back(row);
       magnitudes_.push_back(std::abs(row.r));
     }
-    accumulate(rows_, std::clamp(robustSigma(magnitudes_), 1.5f, kMaxBrightnessSigma), system);
+    const float sigma = robustSigma(magnitudes_);
+    accumulate(rows_, std::clamp(sigma, 1.5f, kMaxBrightnessSigma), system);
+    system.full_sigma = std::max(static_cast<double>(sigma), system.sigma);
     return system;
   }
 
@@ -183,9 +186,10 @@ class Problem {
     feigned.topRightCorner<3, 3>() = -skew(feigned_first.cast<double>());
     feigned.bottomLeftCorner<3, 3>() = skew(feigned_first.cast<double>());
     feigned.bottomRightCorner<3, 3>() = feigned_second.cast<double>();
-    const float sigma = std::clamp(robustSigma(magnitudes_), 1.0f, kMaxSurfaceSigma);
-    accumulate(rows_, sigma, system);
-    suppressWeakDirections(feigned / static_cast<double>(sigma * sigma), system);
+    const float sigma = robustSigma(magnitudes_);
+    accumulate(rows_, std::clamp(sigma, 1.0f, kMaxSurfaceSigma), system);
+    system.full_sigma = std::max(static_cast<double>(sigma), system.sigma);
+    suppressWeakDirections(feigned / (system.sigma * system.sigma), system);
     return system;
   }
 
@@ -207,6 +211,20 @@ class Problem {
     }
     return sum;
   }
+
+  /// The change of brightness alone, at a fixed pose.
+  void fitBrightness(State& state) {
+    for (int i = 0; i < 4; ++i) {
+      System system = combined(state, 0, 1, 0.07f, nullptr, nullptr);
+      const Eigen::Vector2d dx =
+          -system.H.bottomRightCorner<2, 2>().ldlt().solve(system.g.tail<2>());
+      state.gain = std::clamp(state.gain + dx(0), -0.5, 0.5);
+      state.bias = std::clamp(state.bias + dx(1), -80.0, 80.0);
+    }
+  }
+
+  const Reference& reference() const { return reference_; }
+  const AlignmentOptions& options() const { return options_; }
 
  private:
   static void add(const System& part, double correlation, System& sum, System* copy) {
@@ -275,6 +293,39 @@ double meanCost(const System& part, std::size_t asked) {
   return (part.cost + scale + kLost * lost) / static_cast<double>(asked);
 }
 
+double squared(double value) { return value * value; }
+
+/// The normal matrices, residuals and covariance at a pose.
+Alignment evaluate(Problem& problem, const State& state) {
+  Alignment result;
+  System photometric;
+  System surfaces;
+  System sum = problem.combined(state, 0, 1, 0.07f, &photometric, &surfaces);
+  result.T_reference_current = state.T_current_reference.inverse();
+  // The weights used bounded scales; the covariance knows the residuals as they are.
+  if (photometric.count > 0) {
+    sum.H += photometric.H / problem.options().photometric_correlation *
+             (squared(photometric.sigma / photometric.full_sigma) - 1.0);
+  }
+  if (surfaces.count > 0) {
+    sum.H += surfaces.H / problem.options().surface_correlation *
+             (squared(surfaces.sigma / surfaces.full_sigma) - 1.0);
+  }
+  sum.H.diagonal().head<6>().array() += 1.0;
+  result.covariance = sum.H.inverse().topLeftCorner<6, 6>();
+  result.photometric_count = photometric.count;
+  result.surface_count = surfaces.count;
+  const auto share = [](int count, std::size_t of) {
+    return of == 0 ? 0.0 : static_cast<double>(count) / static_cast<double>(of);
+  };
+  result.photometric_share = share(photometric.count, problem.reference().photometric[0].size());
+  result.surface_share = share(surfaces.count, problem.reference().surfaces.size());
+  result.photometric_sigma = photometric.full_sigma;
+  result.surface_sigma = surfaces.full_sigma;
+  result.converged = result.covariance.allFinite();
+  return result;
+}
+
 }  // namespace
 
 Reference makeReference(RgbdPyramid pyramid) {
@@ -328,25 +379,17 @@ Alignment align(const Reference& reference, const RgbdPyramid& current,
       if (moved < enough) break;
     }
   }
-  System photometric;
-  System surfaces;
-  const System sum = problem.combined(best, 0, 1, 0.07f, &photometric, &surfaces);
-  result.T_reference_current = best.T_current_reference.inverse();
-  Matrix8 H = sum.H;
-  H.diagonal().head<6>().array() += 1.0;
-  result.covariance = H.inverse().topLeftCorner<6, 6>();
-  result.photometric_count = photometric.count;
-  result.surface_count = surfaces.count;
-  const auto share = [](int count, std::size_t of) {
-    return of == 0 ? 0.0 : static_cast<double>(count) / static_cast<double>(of);
-  };
-  result.photometric_share = share(photometric.count, reference.photometric[0].size());
-  result.surface_share = share(surfaces.count, reference.surfaces.size());
-  result.photometric_sigma = photometric.sigma;
-  result.surface_sigma = surfaces.sigma;
-  result.cost = sum.cost;
-  result.converged = result.covariance.allFinite();
-  return result;
+  return evaluate(problem, best);
+}
+
+Alignment evaluateAt(const Reference& reference, const RgbdPyramid& current,
+                     const Eigen::Isometry3d& T_reference_current,
+                     const AlignmentOptions& options) {
+  if (current.levels.empty() || reference.photometric.size() != current.levels.size()) return {};
+  Problem problem(reference, current, options);
+  State state{T_reference_current.inverse(), 0.0, 0.0};
+  problem.fitBrightness(state);
+  return evaluate(problem, state);
 }
 
 }  // namespace colonnade

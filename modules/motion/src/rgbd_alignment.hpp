@@ -14,8 +14,8 @@ namespace colonnade {
 struct AlignmentOptions {
   bool use_photometric = true;
   bool use_surfaces = true;
-  double photometric_correlation = 8.0;  ///< neighbouring residuals that count as one
-  double surface_correlation = 40.0;
+  double photometric_correlation = 20.0;  ///< neighbouring residuals that count as one
+  double surface_correlation = 35.0;
   /// Surface directions are used where they hold this many times the information that the noise of
   /// the normals alone would feign.
   double weak_direction_ratio = 4.0;
@@ -40,7 +40,6 @@ struct Alignment {
   int surface_count = 0;
   double photometric_sigma = 0.0;  ///< brightness levels
   double surface_sigma = 0.0;      ///< in units of the sensor's noise model
-  double cost = 0.0;               ///< mean robust cost of one residual
   bool converged = false;
 };
 
@@ -48,5 +47,9 @@ struct Alignment {
 /// Starts at the guess that fits best at the coarsest level.
 Alignment align(const Reference& reference, const RgbdPyramid& current,
                 const std::vector<Eigen::Isometry3d>& guesses, const AlignmentOptions& options);
+
+/// The same figures at a pose that something else found.
+Alignment evaluateAt(const Reference& reference, const RgbdPyramid& current,
+                     const Eigen::Isometry3d& T_reference_current, const AlignmentOptions& options);
 
 }  // namespace colonnade

@@ -25,13 +25,18 @@ struct MotionOptions {
   double odometry_floor_m = 0.0005;        ///< of every increment, even at rest
   double odometry_floor_angle = radians(0.02);
 
-  /// Visual odometry.
+  /// Visual odometry. direct: own alignment of brightness and surfaces to a key frame. The others
+  /// are OpenCV's, frame to frame, with covariance and checks of our own at their result.
+  std::string engine = "direct";
+  bool use_photometric = true;
+  bool use_surfaces = true;
   double keyframe_distance_m = 0.15;
   double keyframe_angle = radians(8.0);
   double keyframe_share = 0.6;  ///< of the key frame's points still compared
   double min_share = 0.3;
-  double photometric_correlation = 8.0;
-  double surface_correlation = 40.0;
+  double photometric_correlation = 20.0;
+  double surface_correlation = 35.0;
+  double model_error = 0.03;  ///< sigma per motion: shutter, synchronisation, calibration
   double weak_direction_ratio = 4.0;
   double max_speed_m_s = 2.0;
   double max_turn_rate = radians(150.0);
@@ -51,6 +56,10 @@ struct MotionOptions {
     v.angle("odometry_turn_deg", odometry_turn, {0, 90}, "sigma of heading after a turn of 1 rad");
     v.number("odometry_floor_m", odometry_floor_m, {1e-6, 1}, "smallest sigma of an increment");
     v.angle("odometry_floor_deg", odometry_floor_angle, {1e-4, 10}, "smallest sigma, heading");
+    v.choice("engine", engine, {"direct", "opencv", "opencv_icp", "opencv_rgbd_icp"},
+             "visual odometry: own direct alignment, or one of OpenCV's");
+    v.flag("use_photometric", use_photometric, "compare brightness");
+    v.flag("use_surfaces", use_surfaces, "compare surfaces, point to plane");
     v.number("keyframe_distance_m", keyframe_distance_m, {0, 5},
              "key frame dropped after this way");
     v.angle("keyframe_angle_deg", keyframe_angle, {0, 90}, "key frame dropped after this turn");
@@ -60,6 +69,7 @@ struct MotionOptions {
              "neighbouring brightness residuals that count as one");
     v.number("surface_correlation", surface_correlation, {1, 1e5},
              "neighbouring depth residuals that count as one");
+    v.number("model_error", model_error, {0, 1}, "sigma of visual odometry per motion");
     v.number("weak_direction_ratio", weak_direction_ratio, {0, 1e4},
              "surface directions count above this many times what noisy normals feign");
     v.number("max_speed_m_s", max_speed_m_s, {0.01, 100}, "faster is a failed alignment");

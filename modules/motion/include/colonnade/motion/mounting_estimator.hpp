@@ -13,8 +13,11 @@ namespace colonnade {
 
 /// How far the roll, pitch and height in a frame's T_robot_camera can be trusted.
 struct MountingUncertainty {
-  /// Of small rotations about the robot's x and y axes and of the height: rad, rad, m.
+  /// Of small rotations about the robot's x and y axes and of the height: rad, rad, m. What a
+  /// detector should assume; most of it is depth distortion that stays from frame to frame.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  /// The part by which this frame's estimate may differ from the former one's.
+  Eigen::Matrix3d step_covariance = Eigen::Matrix3d::Zero();
   bool floor_seen = false;  ///< in this frame; otherwise carried on by visual odometry
 };
 
