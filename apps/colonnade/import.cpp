@@ -1,16 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The Colonnade authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <iostream>
 #include <memory>
 
 #include "colonnade/base/angle.hpp"
 #include "colonnade/base/text.hpp"
 #include "colonnade/frames/tum_import.hpp"
+#include "progress.hpp"
 #include "verbs.hpp"
 
 namespace colonnade {
@@ -38,11 +36,6 @@ TumCalibration parseIntrinsics(const std::string& text) {
     throw Error("--intrinsics " + text + ": expected four positive numbers fx,fy,cx,cy in pixels",
                 ExitCode::kUsage);
   return calibration;
-}
-
-void showProgress(std::size_t done, std::size_t all) {
-  if (::isatty(STDERR_FILENO) == 0) return;
-  std::cerr << "\r" << done << " of " << all << " pairs" << (done == all ? "\n" : "") << std::flush;
 }
 
 void report(const TumImportResult& result, const TumImportOptions& options) {
@@ -112,8 +105,12 @@ Action addTum(CLI::App& verb) {
     if (arguments->world == "z-up") options.ground_truth_world = GroundTruthWorld::kZUp;
     if (arguments->world == "first-camera")
       options.ground_truth_world = GroundTruthWorld::kFirstCamera;
-    options.progress = showProgress;
+    Progress progress;
+    options.progress = [&progress](std::size_t done, std::size_t all) {
+      progress.show(static_cast<double>(done) / static_cast<double>(all), done, "importing");
+    };
     const auto result = importTum(options);
+    progress.finish();
     report(result, options);
     return result.skipped.empty() ? ExitCode::kDone : ExitCode::kLossy;
   };
