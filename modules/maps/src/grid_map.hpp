@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "colonnade/base/pose2.hpp"
+#include "colonnade/maps/levelled_scan.hpp"
 #include "colonnade/maps/map_picture.hpp"
 
 namespace colonnade {
@@ -19,11 +20,13 @@ struct KeyFrame {
   double stamp_s = 0.0;
   Pose2 T_world_robot;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  mrpt::obs::CObservation2DRangeScan::Ptr scan;
+  LevelledScan scan;
+  mrpt::obs::CObservation2DRangeScan::Ptr observation;  ///< the same scan
 };
 
 /// The occupancy grid of the key frames, just large enough, its corner on a multiple of the cell.
-/// Invalid beams free nothing. At least one key frame.
+/// Beams free what lies before their obstacle, or the floor they see; nothing
+/// else. At least one key frame.
 mrpt::maps::COccupancyGridMap2D::Ptr buildGrid(const std::vector<KeyFrame>& key_frames,
                                                double resolution_m);
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <vector>
 
 #include "colonnade/base/error.hpp"
 #include "colonnade/maps/landmarks_map_file.hpp"
@@ -40,7 +41,7 @@ CLandmark toLandmark(const LandmarkRecord& record, const Eigen::Vector2d& p_worl
   feature.keypoint.ID =
       record.pair_id ? 1 + static_cast<std::uint64_t>(number(*record.pair_id)) : 0;
   feature.orientation = finite(record.direction.value_or(0.0));
-  feature.response = finite(record.direction_sigma);
+  feature.keypoint.response = finite(record.direction_sigma);
   // MRPT leaves these four unset and writes them: same input, same bytes.
   feature.x2[0] = feature.x2[1] = feature.y2[0] = feature.y2[1] = 0.0F;
   return landmark;
@@ -64,7 +65,7 @@ LandmarkRecord toRecord(const CLandmark& landmark) {
     record.pair_id = LandmarkId{static_cast<std::int32_t>(feature.keypoint.ID - 1)};
   if (record.kind == LandmarkKind::kFloorEdge) {
     record.direction = feature.orientation;
-    record.direction_sigma = feature.response;
+    record.direction_sigma = feature.keypoint.response;
   }
   return record;
 }
@@ -86,11 +87,16 @@ mrpt::maps::CLandmarksMap::Ptr toLandmarksMap(const LandmarkMap& landmarks) {
 
 LandmarkMap fromLandmarksMap(const mrpt::maps::CLandmarksMap& map) {
   std::map<LandmarkId, LandmarkRecord> records;
-  for (const auto& landmark : map.landmarks)
-    if (landmark.ID < kSecondEnd) {
-      const auto record = toRecord(landmark);
-      records.emplace(record.id, record);
-    }
+  std::vector<LandmarkRecord> without_id;
+  for (const auto& landmark : map.landmarks) {
+    if (landmark.ID >= kSecondEnd) continue;
+    const auto record = toRecord(landmark);
+    if (landmark.ID < 0 || !records.emplace(record.id, record).second) without_id.push_back(record);
+  }
+  for (auto& record : without_id) {
+    record.id = LandmarkId{records.empty() ? 0 : number(records.rbegin()->first) + 1};
+    records.emplace(record.id, record);
+  }
   for (const auto& landmark : map.landmarks) {
     if (landmark.ID < kSecondEnd) continue;
     const auto found =

@@ -26,20 +26,44 @@ double heading(const Eigen::Matrix3d& R_robot_camera) {
 /// are uncertain by about 0.002 r^2 metres (Khoshelham 2012); five of these and 5 cm of shape.
 float noiseMargin(float range_m) { return 0.05F + 0.01F * range_m * range_m; }
 
-/// The range of the nearest obstacle that enough pixels agree on; 0 if none. Reorders `ranges`.
+/// The range of the nearest obstacle that enough pixels agree on; 0 if none. Sorts `ranges`.
 float nearestObstacle(std::vector<float>& ranges, std::size_t min_pixels) {
+  std::sort(ranges.begin(), ranges.end());
+  const std::size_t needed = std::max(min_pixels, ranges.size() * 3 / 100);
+  const auto endOfMargin = [&](std::size_t begin, std::size_t end) {
+    const float limit = ranges[begin] + noiseMargin(ranges[begin]);
+    while (end < ranges.size() && ranges[end] <= limit) ++end;
+    return end;
+  };
+  std::size_t begin = 0;
+  std::size_t end = 0;
+  for (;; ++begin) {
+    if (begin == ranges.size()) return 0.0F;
+    end = endOfMargin(begin, end);
+    if (end - begin >= needed) break;
+  }
+  // That may be a speckle and the near half of the obstacle: slide on to where most pixels agree.
+  std::size_t best_begin = begin;
+  std::size_t best_end = end;
+  const std::size_t last = end;
+  for (++begin; begin < last; ++begin) {
+    end = endOfMargin(begin, end);
+    if (end - begin <= best_end - best_begin) continue;
+    best_begin = begin;
+    best_end = end;
+  }
+  return ranges[(best_begin + best_end) / 2];
+}
+
+/// How far the floor is seen without a gap; 0 where it is not. Sorts `ranges`.
+float endOfFloor(std::vector<float>& ranges, std::size_t min_pixels) {
   if (ranges.size() < min_pixels) return 0.0F;
-  const auto nth = std::max(min_pixels - 1, ranges.size() * 3 / 100);
-  const auto near = ranges.begin() + static_cast<std::ptrdiff_t>(nth);
-  std::nth_element(ranges.begin(), near, ranges.end());
-  const float limit = *near + noiseMargin(*near);
-  const auto end = std::partition(near, ranges.end(), [&](float r) { return r <= limit; });
-  // Speckles before the near one are not of the obstacle: they must lie within the margin as well.
-  const float begin_limit = *near - noiseMargin(*near);
-  const auto begin = std::partition(ranges.begin(), near, [&](float r) { return r < begin_limit; });
-  const auto middle = begin + (end - begin) / 2;
-  std::nth_element(begin, middle, end);
-  return *middle;
+  std::sort(ranges.begin(), ranges.end());
+  // Rows of the image meet the floor farther and farther apart.
+  const auto gap = [](float range) { return 0.15F + 0.02F * range * range; };
+  std::size_t last = 0;
+  while (last + 1 < ranges.size() && ranges[last + 1] - ranges[last] <= gap(ranges[last])) ++last;
+  return last + 1 >= min_pixels ? ranges[last] : 0.0F;
 }
 
 }  // namespace
@@ -72,7 +96,9 @@ void ScanCutter::prepare(const Frame& frame) {
   empty_.step = options_.beam_width;
   empty_.first_angle = -side * options_.beam_width;
   empty_.ranges_m.assign(beams, 0.0F);
-  ranges_of_beam_.resize(beams);
+  empty_.free_m.assign(beams, 0.0F);
+  obstacles_.resize(beams);
+  floor_.resize(beams);
   pixels_.clear();
   for (int v = options_.pixel_step / 2; v <= bottom; v += options_.pixel_step)
     for (int u = options_.pixel_step / 2; u <= right; u += options_.pixel_step) {
@@ -98,19 +124,29 @@ std::optional<LevelledScan> ScanCutter::cut(const Frame& frame) {
   const auto z_max = static_cast<float>(options_.z_max_m);
   const auto min_range = static_cast<float>(options_.min_range_m);
   const auto max_range = static_cast<float>(options_.max_range_m);
-  for (auto& ranges : ranges_of_beam_) ranges.clear();
+  const auto rise = static_cast<float>(std::tan(options_.tilt_margin));
+  for (auto& ranges : obstacles_) ranges.clear();
+  for (auto& ranges : floor_) ranges.clear();
   for (const Pixel& pixel : pixels_) {
     const float d = depth_m[pixel.index];
     const float z = z_camera + d * pixel.rise_per_depth;
     const float range = d * pixel.range_per_depth;
     // Comparisons are false for NaN, so that an unmeasured pixel never passes.
-    if (d > 0.0F && z >= z_min && z <= z_max && range >= min_range && range <= max_range)
-      ranges_of_beam_[static_cast<std::size_t>(pixel.beam)].push_back(range);
+    if (!(d > 0.0F && range >= min_range && range <= max_range && z <= z_max)) continue;
+    const float floor_top = z_min + rise * range;
+    const auto beam = static_cast<std::size_t>(pixel.beam);
+    if (z >= floor_top)
+      obstacles_[beam].push_back(range);
+    else if (z >= -floor_top)
+      floor_[beam].push_back(range);
   }
   LevelledScan scan = empty_;
-  for (std::size_t i = 0; i < scan.size(); ++i)
-    scan.ranges_m[i] =
-        nearestObstacle(ranges_of_beam_[i], static_cast<std::size_t>(options_.min_pixels));
+  const auto min_pixels = static_cast<std::size_t>(options_.min_pixels);
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    scan.ranges_m[i] = nearestObstacle(obstacles_[i], min_pixels);
+    // A few pixels above the floor are no obstacle, but no reason to call the beam free either.
+    if (obstacles_[i].size() < min_pixels) scan.free_m[i] = endOfFloor(floor_[i], min_pixels);
+  }
   return scan;
 }
 

@@ -6,6 +6,7 @@
 #include <mrpt/maps/CSimpleMap.h>
 #include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/obs/CSensoryFrame.h>
+#include <mrpt/poses/CPose3DPDFGaussian.h>
 
 #include <algorithm>
 #include <cmath>
@@ -38,9 +39,12 @@ void moveTo(const Trajectory& trajectory, std::vector<KeyFrame>& key_frames) {
 mrpt::maps::CSimpleMap toSimpleMap(const std::vector<KeyFrame>& key_frames) {
   mrpt::maps::CSimpleMap map;
   for (const auto& key_frame : key_frames) {
-    mrpt::obs::CSensoryFrame observations;
-    observations.insert(key_frame.scan);
-    map.insert(toMrpt(key_frame.T_world_robot, key_frame.covariance), observations);
+    // Through SE(3): the overload for planar poses fails an assertion of its own in MRPT 2.5.8.
+    const auto pose = mrpt::poses::CPose3DPDFGaussian::Create(
+        mrpt::poses::CPose3DPDFGaussian(toMrpt(key_frame.T_world_robot, key_frame.covariance)));
+    auto observations = mrpt::obs::CSensoryFrame::Create();
+    observations->insert(key_frame.observation);
+    map.insert(pose, observations);
   }
   return map;
 }
@@ -51,7 +55,7 @@ mrpt::maps::CSimplePointsMap::Ptr toPoints(const std::vector<KeyFrame>& key_fram
   for (const auto& key_frame : key_frames) {
     const auto& pose = key_frame.T_world_robot;
     const mrpt::poses::CPose3D robot(pose.x, pose.y, 0.0, pose.phi, 0.0, 0.0);
-    points->insertObservation(*key_frame.scan, robot);
+    points->insertObservation(*key_frame.observation, robot);
   }
   return points;
 }
@@ -100,7 +104,7 @@ void MapRecorder::add(const Frame& frame, const Pose2& T_world_robot,
   const auto observation = toObservation(*scan, frame.stamp_s, impl_->max_range_m);
   impl_->scan_log.addScan(observation, frame.stamp_s);
   if (scan->validBeams() >= kFewestBeams && impl_->isKeyFrame(T_world_robot))
-    impl_->key_frames.push_back({frame.stamp_s, T_world_robot, covariance, observation});
+    impl_->key_frames.push_back({frame.stamp_s, T_world_robot, covariance, *scan, observation});
 }
 
 MapFiles MapRecorder::finish(const MapContents& contents) {

@@ -41,7 +41,7 @@ void writeObject(const std::filesystem::path& path,
 
 mrpt::serialization::CSerializable::Ptr readObject(const std::filesystem::path& path) {
   mrpt::io::CFileGZInputStream file;
-  if (std::filesystem::is_directory(path) || !file.open(path.string()))
+  if (!std::filesystem::is_regular_file(path) || !file.open(path.string()))
     throw Error(path.string() + ": cannot be read");
   try {
     auto object = mrpt::serialization::archiveFrom(file).ReadObject();

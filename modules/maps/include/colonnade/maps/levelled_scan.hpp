@@ -18,6 +18,7 @@ struct ScanOptions {
   static constexpr const char* kSection = "Scans";
   double z_min_m = 0.15;  ///< above the floor: what lies lower is taken for floor
   double z_max_m = 1.6;
+  double tilt_margin = radians(1.0);  ///< error of the camera's tilt that must not raise the floor
   double min_range_m = 0.3;
   double max_range_m = 6.0;
   double beam_width = radians(0.5);
@@ -27,6 +28,7 @@ struct ScanOptions {
   void visit(OptionVisitor& v) {
     v.number("z_min_m", z_min_m, {0.02, 2}, "height of the lowest obstacle");
     v.number("z_max_m", z_max_m, {0.1, 5}, "height of the highest obstacle");
+    v.angle("tilt_margin_deg", tilt_margin, {0, 10}, "tilt error that may not raise the floor");
     v.number("min_range_m", min_range_m, {0, 5}, "nearer depth is ignored");
     v.number("max_range_m", max_range_m, {0.5, 30}, "farther depth is ignored");
     v.angle("beam_width_deg", beam_width, {0.1, 5}, "between two beams");
@@ -43,6 +45,8 @@ struct LevelledScan {
   double first_angle = 0.0;  ///< of beam 0, in the scan's frame, counter-clockwise
   double step = 0.0;
   std::vector<float> ranges_m;  ///< horizontal; 0 where no obstacle was seen
+  /// Where no obstacle was seen: how far the floor was, without a gap. Otherwise 0.
+  std::vector<float> free_m;
 
   std::size_t size() const { return ranges_m.size(); }
   bool valid(std::size_t beam) const { return ranges_m[beam] > 0.0F; }
@@ -58,10 +62,11 @@ class ScanCutter {
   explicit ScanCutter(const ScanOptions& options) : options_(options) {}
 
   /// Every used depth pixel is levelled by T_robot_camera; those whose height lies in the band fall
-  /// into the beam of their azimuth. A beam takes the median of the pixels within a noise margin
-  /// behind its 3 % nearest one, so that neither a speckle nor depth noise pulls it nearer. Nothing
-  /// if the frame has no depth or no calibration. A beam that sees only floor, or nothing, stays
-  /// invalid: without an obstacle nobody knows how far it is free.
+  /// into the beam of their azimuth. A beam takes the nearest range that enough of its pixels (3 %,
+  /// `min_pixels` at least) agree on within depth noise, and of these the median, so that neither
+  /// speckles nor noise pull it nearer. Nothing if the frame has no depth or no calibration. A beam
+  /// that sees only floor, or nothing, stays invalid: without an obstacle nobody knows how far it
+  /// is free.
   std::optional<LevelledScan> cut(const Frame& frame);
 
  private:
@@ -79,7 +84,8 @@ class ScanCutter {
   Eigen::Isometry3d T_robot_camera_ = Eigen::Isometry3d::Identity();
   LevelledScan empty_;
   std::vector<Pixel> pixels_;
-  std::vector<std::vector<float>> ranges_of_beam_;
+  std::vector<std::vector<float>> obstacles_;  ///< ranges of each beam
+  std::vector<std::vector<float>> floor_;
 };
 
 }  // namespace colonnade
