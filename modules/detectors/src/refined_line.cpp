@@ -14,6 +14,7 @@ namespace {
 struct Sample {
   double s = 0.0;       ///< along
   double across = 0.0;  ///< sub-pixel
+  int sector = 0;       ///< of the gradient
 };
 using Samples = std::vector<Sample>;
 
@@ -93,7 +94,7 @@ class Walker {
     const double curvature = before - 2.0 * here + after;
     const double shift =
         curvature < 0.0 ? std::clamp(0.5 * (before - after) / curvature, -0.5, 0.5) : 0.0;
-    return {static_cast<double>(s), t + shift};
+    return {static_cast<double>(s), t + shift, edges_[s * edges_s_ + t * edges_t_] - 1};
   }
 
   const std::uint8_t* gray_;
@@ -172,6 +173,19 @@ std::vector<Samples> runs(const Samples& samples, const LineRefinementOptions& o
   return result;
 }
 
+/// Share of the samples whose gradient points straight across the line; blobs of texture turn it.
+double alignedShare(const Samples& samples, const RefinedLine& line) {
+  const Eigen::Vector2d normal =
+      line.gradient_sign *
+      (line.steep ? Eigen::Vector2d(1.0, -line.slope) : Eigen::Vector2d(-line.slope, 1.0));
+  const double direction = std::atan2(normal.y(), normal.x());
+  constexpr double kAligned = radians(33.0);
+  const auto aligned = std::count_if(samples.begin(), samples.end(), [&](const Sample& sample) {
+    return std::abs(wrapAngle(sample.sector * kPi / 4.0 - direction)) < kAligned;
+  });
+  return static_cast<double>(aligned) / static_cast<double>(samples.size());
+}
+
 std::optional<RefinedLine> fitRun(Samples samples, bool steep, int sign,
                                   const LineRefinementOptions& options) {
   Eigen::Matrix2d unit;
@@ -205,6 +219,7 @@ std::optional<RefinedLine> fitRun(Samples samples, bool steep, int sign,
   if (result.length() < options.min_length_px || n < options.min_support * steps) {
     return std::nullopt;
   }
+  if (alignedShare(samples, result) < options.min_aligned) return std::nullopt;
   return result;
 }
 

@@ -82,9 +82,11 @@ EdgeLines OpencvBackend::extract(const cv::Mat& gray) {
   if (gray.type() != CV_8UC1) {
     throw Error("edge stage: the image is not 8-bit gray; convert it before extract()");
   }
-  cv::Mat smooth = gray;
+  cv::Mat smooth;  // of its own: an output that shares the input's pixels would be blurred in place
   if (options_.smoothing_sigma_px > 0.0) {
     cv::GaussianBlur(gray, smooth, {}, options_.smoothing_sigma_px, 0.0, cv::BORDER_REPLICATE);
+  } else {
+    smooth = gray;
   }
   cv::Mat gradient_u;
   cv::Mat gradient_v;

@@ -19,7 +19,7 @@ struct FloorEdgeOptions {
   double wall_tolerance_m = 0.05;       ///< of the wall's distance, beyond noise
   double min_wall_share = 0.6;          ///< of the places with depth that must see a wall
   double parallel_m = 0.25;             ///< of parallel edges this close only the nearest counts
-  double max_direction_sigma = radians(6.0);
+  double max_direction_sigma = radians(4.0);
   double max_distance_sigma_m = 0.4;
 
   void visit(OptionVisitor& v) {

@@ -19,7 +19,7 @@ struct PillarOptions {
   double upright_tolerance_m = 0.06;  ///< of the horizontal distance along the edge
   double min_pair_width_m = 0.05;
   double max_pair_width_m = 1.2;
-  double max_pair_width_px = 200.0;
+  double max_pair_width_px = 100.0;
 
   void visit(OptionVisitor& v) {
     v.angle("vertical_tolerance_deg", vertical_tolerance, {0.5, 30},

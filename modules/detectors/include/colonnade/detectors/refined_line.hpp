@@ -6,6 +6,7 @@
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
+#include "colonnade/base/angle.hpp"
 #include "colonnade/base/options.hpp"
 #include "colonnade/edges/edge_line_backend.hpp"
 
@@ -20,6 +21,7 @@ struct LineRefinementOptions {
   double min_length_px = 40.0;
   double min_support = 0.7;         ///< share of the steps along the line with an edge pixel
   double max_residual_px = 0.6;     ///< root mean square; texture scatters more than edges
+  double min_aligned = 0.75;        ///< share of pixels whose gradient points across the line
   double duplicate_px = 2.0;        ///< lines this close with the same sign are one line
   double correlated_samples = 4.0;  ///< neighbouring edge pixels share their error over this many
 
@@ -30,6 +32,7 @@ struct LineRefinementOptions {
     v.number("min_length_px", min_length_px, {10, 1000}, "shortest line kept");
     v.number("min_support", min_support, {0.1, 1}, "share of a line's steps with an edge pixel");
     v.number("max_residual_px", max_residual_px, {0.1, 5}, "root mean square of a line's pixels");
+    v.number("min_aligned", min_aligned, {0, 1}, "share of pixels with a gradient across the line");
     v.number("duplicate_px", duplicate_px, {0, 10}, "lines closer than this are one");
     v.number("correlated_samples", correlated_samples, {1, 50}, "edge pixels that share an error");
   }
