@@ -1,0 +1,212 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "colonnade/base/text.hpp"
+#include "world_statements.hpp"
+
+namespace colonnade {
+namespace {
+
+const std::vector<std::pair<std::string, Pattern>> kPatterns = {
+    {"plaster", Pattern::kPlaster}, {"tiles", Pattern::kTiles}, {"panels", Pattern::kPanels},
+    {"papers", Pattern::kPapers},   {"plain", Pattern::kPlain}, {"lamp", Pattern::kLamp}};
+
+std::size_t materialIndex(const World& world, const std::string& name) {
+  std::size_t index = 0;
+  while (index < world.materials.size() && world.materials[index].name != name) ++index;
+  return index;
+}
+
+std::size_t materialOf(Statement& s, const World& world, const char* key, const char* otherwise) {
+  const auto name = s.text(key, otherwise);
+  const auto index = materialIndex(world, name);
+  if (index == world.materials.size()) {
+    s.fail(std::string(key) + "=" + name + ": no such material; define it with 'material' first");
+  }
+  return index;
+}
+
+std::size_t wallOf(Statement& s, const World& world) {
+  const auto name = s.text("wall", "");
+  for (std::size_t i = 0; i < world.walls.size(); ++i) {
+    if (world.walls[i].name == name) return i;
+  }
+  s.fail("wall=" + name + ": no such wall; name one that was defined above");
+}
+
+void onWallAt(Statement& s, const World& world, std::size_t index, double at_m, double width_m) {
+  const auto& wall = world.walls[index];
+  if (at_m - 0.5 * width_m >= 0.0 && at_m + 0.5 * width_m <= wall.length()) return;
+  s.fail("does not fit: wall " + wall.name + " is " + formatFixed(wall.length(), 3) + " m long");
+}
+
+void wallOptions(Statement& s, const World& world, Wall& wall) {
+  s.number("height_m", wall.height_m, {0.1, 20}, "");
+  s.number("skirting_m", wall.skirting_m, {0, 1}, "");
+  s.integer("hallway", wall.hallway, {-1, 1000}, "");
+  wall.material = materialOf(s, world, "material", "plaster");
+  wall.skirting_material = materialOf(s, world, "skirting", "skirting");
+}
+
+void addWall(Statement& s, World& world, const Wall& wall) {
+  if (wall.length() < 0.01) s.fail("wall " + wall.name + " is shorter than 1 cm");
+  for (const auto& other : world.walls) {
+    if (other.name == wall.name) s.fail("there is a wall named " + wall.name + " already");
+  }
+  world.walls.push_back(wall);
+}
+
+}  // namespace
+
+void addBuiltInMaterials(World& world) {
+  const auto surface = [&](const char* name, Pattern pattern, Eigen::Vector3d colour,
+                           Eigen::Vector3d second, double tile_m) {
+    world.materials.push_back({name, pattern, colour, second, 4.0, 4.0, tile_m});
+  };
+  surface("plaster", Pattern::kPlaster, {205, 200, 188}, {150, 145, 135}, 0.3);
+  surface("skirting", Pattern::kPlain, {92, 84, 78}, {60, 55, 50}, 0.3);
+  surface("wood", Pattern::kPanels, {150, 112, 76}, {96, 68, 44}, 0.3);
+  surface("frame", Pattern::kPlain, {84, 92, 100}, {60, 60, 60}, 0.3);
+  surface("concrete", Pattern::kPlaster, {158, 158, 154}, {120, 120, 120}, 0.3);
+  surface("cork", Pattern::kPapers, {172, 138, 96}, {232, 232, 226}, 0.3);
+  surface("tiles", Pattern::kTiles, {150, 148, 140}, {104, 102, 98}, 0.45);
+  surface("ceiling", Pattern::kTiles, {214, 214, 210}, {170, 170, 168}, 0.62);
+  surface("lamp", Pattern::kLamp, {252, 252, 248}, {214, 214, 210}, 0.3);
+  world.floor_material = materialIndex(world, "tiles");
+  world.ceiling_material = materialIndex(world, "ceiling");
+}
+
+void readMaterial(Statement& s, World& world) {
+  Material read;
+  const auto name = s.word(0, "the name");
+  const auto index = materialIndex(world, name);
+  if (index < world.materials.size()) read = world.materials[index];
+  read.name = name;
+  std::vector<std::string> patterns;
+  std::string pattern;
+  for (const auto& [text, value] : kPatterns) {
+    patterns.push_back(text);
+    if (value == read.pattern) pattern = text;
+  }
+  s.choice("pattern", pattern, patterns, "how it is painted");
+  for (const auto& [text, value] : kPatterns) {
+    if (text == pattern) read.pattern = value;
+  }
+  s.triple("colour", read.colour, {0, 255});
+  s.triple("second", read.second, {0, 255});
+  s.number("grain", read.grain, {0, 100}, "gray levels of fine noise");
+  s.number("blotches", read.blotches, {0, 100}, "gray levels of coarse noise");
+  s.number("tile_m", read.tile_m, {0.02, 10}, "edge of a tile");
+  s.finish(1);
+  if (index < world.materials.size()) {
+    world.materials[index] = read;
+  } else {
+    world.materials.push_back(read);
+  }
+}
+
+void readWall(Statement& s, World& world) {
+  Wall read;
+  read.name = s.word(0, "the name");
+  read.a = s.point(1, "the start");
+  read.b = s.point(3, "the end");
+  wallOptions(s, world, read);
+  s.finish(5);
+  addWall(s, world, read);
+}
+
+void readRoom(Statement& s, World& world) {
+  Wall read;
+  const auto name = s.word(0, "the name");
+  const auto corners = (s.wordCount() - 1) / 2;
+  if (corners < 3) s.fail("needs at least three corners");
+  wallOptions(s, world, read);
+  s.finish(1 + 2 * corners);
+  for (std::size_t i = 0; i < corners; ++i) {
+    read.name = name + "." + std::to_string(i + 1);
+    read.a = s.point(1 + 2 * i, "a corner");
+    read.b = s.point(1 + 2 * ((i + 1) % corners), "a corner");
+    addWall(s, world, read);
+  }
+}
+
+void readDoor(Statement& s, World& world) {
+  Door read;
+  read.wall = wallOf(s, world);
+  s.number("at_m", read.at_m, {0, 1e4}, "");
+  s.number("width_m", read.width_m, {0.2, 10}, "");
+  s.number("height_m", read.height_m, {0.5, 10}, "");
+  s.number("recess_m", read.recess_m, {0, 2}, "");
+  s.number("frame_m", read.frame_m, {0, 0.5}, "");
+  s.number("protrusion_m", read.protrusion_m, {0, 0.5}, "");
+  read.material = materialOf(s, world, "material", "wood");
+  read.frame_material = materialOf(s, world, "frame", "frame");
+  s.finish(0);
+  onWallAt(s, world, read.wall, read.at_m, read.width_m + 2.0 * read.frame_m);
+  if (read.height_m + read.frame_m >= world.walls[read.wall].height_m) {
+    s.fail("is as high as its wall");
+  }
+  world.doors.push_back(read);
+}
+
+void readPilaster(Statement& s, World& world) {
+  Pilaster read;
+  read.wall = wallOf(s, world);
+  s.number("at_m", read.at_m, {0, 1e4}, "");
+  s.number("width_m", read.width_m, {0.02, 10}, "");
+  s.number("depth_m", read.depth_m, {0.005, 5}, "");
+  read.material = materialOf(s, world, "material", "concrete");
+  s.finish(0);
+  onWallAt(s, world, read.wall, read.at_m, read.width_m);
+  world.pilasters.push_back(read);
+}
+
+void readPillar(Statement& s, World& world) {
+  Pillar read;
+  read.centre = s.point(0, "the centre");
+  s.pair("size_m", read.size, {0.02, 10});
+  s.angle("turn_deg", read.turn, {-180, 180}, "");
+  s.number("height_m", read.height_m, {0.1, 20}, "");
+  read.material = materialOf(s, world, "material", "concrete");
+  s.finish(2);
+  world.pillars.push_back(read);
+}
+
+void readBoard(Statement& s, World& world) {
+  Board read;
+  read.wall = wallOf(s, world);
+  s.number("at_m", read.at_m, {0, 1e4}, "");
+  s.number("width_m", read.width_m, {0.05, 20}, "");
+  s.number("bottom_m", read.bottom_m, {0.02, 10}, "");
+  s.number("height_m", read.height_m, {0.05, 10}, "");
+  s.number("thickness_m", read.thickness_m, {0.002, 0.5}, "");
+  read.material = materialOf(s, world, "material", "cork");
+  s.finish(0);
+  onWallAt(s, world, read.wall, read.at_m, read.width_m);
+  world.boards.push_back(read);
+}
+
+void readLamp(Statement& s, World& world) {
+  Lamp read;
+  read.centre = s.point(0, "the centre");
+  s.pair("size_m", read.size, {0.02, 10});
+  s.number("brightness", read.brightness, {0, 10}, "");
+  s.finish(2);
+  world.lamps.push_back(read);
+}
+
+void readFloor(Statement& s, World& world) {
+  world.floor_material = materialOf(s, world, "material", "tiles");
+  s.finish(0);
+}
+
+void readCeiling(Statement& s, World& world) {
+  world.ceiling_material = materialOf(s, world, "material", "ceiling");
+  s.finish(0);
+}
+
+void readTexture(Statement& s, World& world) {
+  s.number("texels_per_m", world.texels_per_m, {20, 1000}, "");
+  s.finish(0);
+}
+
+}  // namespace colonnade
