@@ -5,15 +5,9 @@
 #include <string>
 
 #include "colonnade/base/error.hpp"
+#include "colonnade/base/log_path.hpp"
 
 namespace colonnade {
-
-std::filesystem::path stemOf(const std::filesystem::path& log) {
-  std::string text = log.string();
-  for (const std::string ending : {".gz", ".rawlog"})
-    if (text.ends_with(ending)) text.resize(text.size() - ending.size());
-  return text;
-}
 
 std::filesystem::path makeResultsFolder(const std::filesystem::path& asked,
                                         const std::filesystem::path& log) {
@@ -24,7 +18,7 @@ std::filesystem::path makeResultsFolder(const std::filesystem::path& asked,
       throw Error(asked.string() + ": exists and is not an empty folder; give -o a new one",
                   ExitCode::kUsage);
   } else {
-    const std::string stem = stemOf(log).string() + "_results";
+    const std::string stem = logStem(log).string() + "_results";
     folder = stem;
     for (int i = 2; fs::exists(folder); ++i) folder = stem + "-" + std::to_string(i);
   }

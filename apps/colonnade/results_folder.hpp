@@ -6,9 +6,6 @@
 
 namespace colonnade {
 
-/// LOG without .rawlog or .rawlog.gz.
-std::filesystem::path stemOf(const std::filesystem::path& log);
-
 /// Makes the folder results go to: `asked` if it is not empty, which must not hold anything yet
 /// (Error, kUsage), otherwise STEM_results, STEM_results-2 and so on. Nothing is ever deleted.
 std::filesystem::path makeResultsFolder(const std::filesystem::path& asked,

@@ -7,6 +7,7 @@
 
 #include "colonnade/base/atomic_file.hpp"
 #include "colonnade/base/error.hpp"
+#include "colonnade/base/log_path.hpp"
 #include "colonnade/base/text.hpp"
 #include "colonnade/base/trajectory.hpp"
 
@@ -75,6 +76,12 @@ TEST_F(Files, ABadTumLineIsNamed) {
   EXPECT_NE(std::string::npos, complaint(good + "1 0 0 0 0 0 0 1\n").find("does not grow"));
   EXPECT_NE(std::string::npos, complaint("1 0 x 0 0 0 0 1\n").find("\"x\" is not a number"));
   EXPECT_NE(std::string::npos, complaint("1 0 0 0 0 0 0 0\n").find("quaternion"));
+}
+
+TEST(LogPath, TheStemIsTheLogWithoutItsEndings) {
+  EXPECT_EQ("a/b", logStem("a/b.rawlog"));
+  EXPECT_EQ("a/b", logStem("a/b.rawlog.gz"));
+  EXPECT_EQ("a/b.c", logStem("a/b.c"));
 }
 
 TEST(Text, NumbersReadBackAndIgnoreTheLocale) {

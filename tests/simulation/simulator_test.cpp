@@ -106,11 +106,5 @@ TEST_F(Simulator, sameSeedSameBytes) {
   EXPECT_EQ(bytesOf(folder_ / "a_landmarks.csv"), bytesOf(folder_ / "c_landmarks.csv"));
 }
 
-TEST(LogStem, dropsTheEndingsOfLogs) {
-  EXPECT_EQ(logStem("a/b.rawlog"), "a/b");
-  EXPECT_EQ(logStem("a/b.rawlog.gz"), "a/b");
-  EXPECT_EQ(logStem("a/b.c"), "a/b.c");
-}
-
 }  // namespace
 }  // namespace colonnade

@@ -9,6 +9,7 @@
 
 #include "camera_views.hpp"
 #include "colonnade/base/error.hpp"
+#include "colonnade/base/log_path.hpp"
 #include "colonnade/base/text.hpp"
 #include "colonnade/frames/floor_plane.hpp"
 #include "colonnade/frames/rawlog_writer.hpp"
@@ -196,14 +197,6 @@ class Importer {
 };
 
 }  // namespace
-
-std::filesystem::path logStem(const std::filesystem::path& log) {
-  std::string name = log.filename().string();
-  for (const std::string ending : {".gz", ".rawlog"})
-    if (name.size() > ending.size() && name.ends_with(ending))
-      name.resize(name.size() - ending.size());
-  return log.parent_path() / name;
-}
 
 TumImportResult importTum(const TumImportOptions& options) { return Importer(options).run(); }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "colonnade/base/log_path.hpp"
 #include "colonnade/base/trajectory.hpp"
 #include "colonnade/frames/rawlog_writer.hpp"
 #include "colonnade/maps/landmark_csv.hpp"
@@ -33,14 +34,6 @@ cv::Mat millimetres(const cv::Mat& depth_m) {
 }
 
 }  // namespace
-
-std::string logStem(const std::filesystem::path& log) {
-  std::string stem = log.string();
-  for (const std::string ending : {".gz", ".rawlog"}) {
-    if (stem.ends_with(ending)) stem.resize(stem.size() - ending.size());
-  }
-  return stem;
-}
 
 SimulationSummary simulate(const World& world, const std::filesystem::path& log,
                            const SimulationOptions& options) {
@@ -85,7 +78,7 @@ SimulationSummary simulate(const World& world, const std::filesystem::path& log,
   }
   writer.finish();
 
-  const std::string stem = logStem(log);
+  const std::string stem = logStem(log).string();
   writeTum(stem + "_ground_truth.tum", trajectory);
   writeLandmarksCsv(stem + "_landmarks.csv", truth.landmarks());
   writeFloorPlan(stem + "_floor", plan);

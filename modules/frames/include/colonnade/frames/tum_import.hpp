@@ -61,7 +61,4 @@ struct TumImportResult {
 /// the stamp of its colour image. Throws Error; kUsage where an option is missing or wrong.
 TumImportResult importTum(const TumImportOptions& options);
 
-/// LOG without `.rawlog` or `.rawlog.gz`: what stands beside a log shares this beginning.
-std::filesystem::path logStem(const std::filesystem::path& log);
-
 }  // namespace colonnade

@@ -26,9 +26,6 @@ struct SimulationSummary {
   std::uintmax_t log_bytes = 0;
 };
 
-/// The log's path without .rawlog or .rawlog.gz.
-std::string logStem(const std::filesystem::path& log);
-
 /// Drives the robot through its world and writes the log (action/sensory-frame pairs, one RGB-D
 /// observation each) and beside it the truth: STEM_ground_truth.tum, STEM_landmarks.csv,
 /// STEM_floor.png and .yaml. The same world, seed and options give the same bytes on the same
