@@ -199,11 +199,11 @@ Detection toDetection(const DepthProfile& profile, const Candidate& candidate,
   const Eigen::Vector2d offset = profile.R_robot_slice * candidate.p_slice;
   const double range_m = offset.norm();
   // Depth edges of structured light wander by pixels, intersections of surfaces do not.
-  const double pixels = candidate.jump ? 3.0 : 0.7;
+  const double pixels = candidate.jump ? 2.0 : 0.7;
   const double lateral_m = std::hypot(pixels / profile.focal_px * range_m, candidate.sigma_m,
                                       0.3 * geometry.tilt_sigma * range_m);
   const double axial_m =
-      std::hypot(0.5 * kinectDepthSigma(candidate.p_slice.y()), candidate.sigma_m, 0.005);
+      std::hypot(0.7 * kinectDepthSigma(candidate.p_slice.y()), candidate.sigma_m, 0.01);
   Detection detection;
   auto& m = detection.measurement;
   m.kind = LandmarkKind::kDepthSlope;

@@ -189,8 +189,8 @@ PillarRange measurePillarRange(const DepthView& depth, const RefinedLine& line,
   result.range_m =
       smooth ? 2.0 / (sides[0].inverse_range + sides[1].inverse_range) : nearer.range();
   const double extrapolation = smooth ? 1.0 : 1.5;
-  constexpr double kAveraged = 4.0;  // pixels of the strip share most of their error
-  result.sigma_m = std::hypot(extrapolation * noise_m / std::sqrt(kAveraged), lateral_m, 0.01);
+  constexpr double kAveraged = 2.0;  // pixels of the strip share most of their error
+  result.sigma_m = std::hypot(extrapolation * noise_m / std::sqrt(kAveraged), lateral_m, 0.015);
   const bool usable =
       result.range_m >= geometry.min_depth_m && result.range_m <= geometry.max_depth_m;
   if (usable) result.verdict = PillarRange::Verdict::kMeasured;

@@ -201,7 +201,7 @@ std::optional<RefinedLine> fitRun(Samples samples, bool steep, int sign,
     const double residual = sample.across - line->across(sample.s);
     squares += residual * residual;
   }
-  constexpr double kLeastSigma_px = 0.15;
+  constexpr double kLeastSigma_px = 0.05;
   const auto n = static_cast<double>(samples.size());
   const double variance = std::max(kLeastSigma_px * kLeastSigma_px, squares / (n - 2.0 + 1e-9));
   RefinedLine result;

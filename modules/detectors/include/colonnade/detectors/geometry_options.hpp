@@ -11,7 +11,7 @@ namespace colonnade {
 /// can be used.
 struct GeometryOptions {
   static constexpr const char* kSection = "Geometry";
-  double line_sigma_px = 0.5;        ///< error of a line that no number of pixels averages out
+  double line_sigma_px = 1.0;        ///< error of a line that no number of pixels averages out
   double tilt_sigma = radians(0.5);  ///< of the camera's roll and pitch
   double height_sigma_m = 0.02;      ///< of the camera above the floor
   double min_depth_m = 0.5;
