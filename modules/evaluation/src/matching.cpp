@@ -36,7 +36,8 @@ std::optional<Eigen::Isometry3d> truthAt(const Trajectory& truth, double stamp_s
   const bool has_before = after != truth.begin();
   const double to_after = has_after ? after->stamp_s - stamp_s : 1e300;
   const double to_before = has_before ? stamp_s - (after - 1)->stamp_s : 1e300;
-  if (has_after && has_before && to_after + to_before <= options.max_truth_gap_s)
+  if (has_after && has_before &&
+      to_after + to_before <= options.max_truth_gap_s + options.same_stamp_s)
     return interpolate(*(after - 1), *after, stamp_s);
   if (std::min(to_after, to_before) > options.same_stamp_s) return std::nullopt;
   return to_after <= to_before ? after->T_world_body : (after - 1)->T_world_body;

@@ -118,16 +118,18 @@ double Canvas::textWidth(const std::string& text, double height_px) {
          static_cast<double>(kZoom);
 }
 
-void Canvas::image(const cv::Mat& bgr, const Eigen::Vector2d& p_world_corner,
-                   double metres_per_cell) {
+void Canvas::cells(const cv::Mat& mask, const Eigen::Vector2d& p_world_corner,
+                   double metres_per_cell, const cv::Scalar& colour) {
   const Eigen::Vector2d top_left =
-      pixelOf(p_world_corner + Eigen::Vector2d(0.0, bgr.rows * metres_per_cell));
+      pixelOf(p_world_corner + Eigen::Vector2d(0.0, mask.rows * metres_per_cell));
   const double zoom = kZoom * scale_ * metres_per_cell;
   // Cell (0, 0) covers the pixels from top_left on; OpenCV places pixel centres on whole numbers.
   const cv::Matx23d M(zoom, 0.0, kZoom * top_left.x() + 0.5 * zoom - 0.5, 0.0, zoom,
                       kZoom * top_left.y() + 0.5 * zoom - 0.5);
-  const int how = zoom >= 1.0 ? cv::INTER_NEAREST : cv::INTER_AREA;
-  cv::warpAffine(bgr, large_, M, large_.size(), how, cv::BORDER_TRANSPARENT);
+  cv::Mat large_mask;
+  cv::warpAffine(mask, large_mask, M, large_.size(), cv::INTER_NEAREST, cv::BORDER_CONSTANT,
+                 cv::Scalar::all(0));
+  large_.setTo(colour, large_mask);
 }
 
 cv::Mat Canvas::finished() const {

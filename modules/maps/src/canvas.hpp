@@ -34,8 +34,9 @@ class Canvas {
                  const cv::Scalar& colour);
   void text(const std::string& text, const Eigen::Vector2d& p_px, double height_px,
             const cv::Scalar& colour, bool bold = false);
-  /// Lays an image of the world underneath, its lower left corner at `p_world_corner`.
-  void image(const cv::Mat& bgr, const Eigen::Vector2d& p_world_corner, double metres_per_cell);
+  /// Paints the cells of a mask that are not 0; its lower left corner lies at `p_world_corner`.
+  void cells(const cv::Mat& mask, const Eigen::Vector2d& p_world_corner, double metres_per_cell,
+             const cv::Scalar& colour);
 
   static double textWidth(const std::string& text, double height_px);
   cv::Mat finished() const;

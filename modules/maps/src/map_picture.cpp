@@ -87,12 +87,11 @@ double niceLength(double length) {
 
 void drawGrid(const GridPicture& grid, Canvas& canvas) {
   canvas.rectangle({0.0, 0.0}, {canvas.size().width, canvas.size().height}, kPaper);
-  if (!grid.cells.empty()) {
-    cv::Mat cells(grid.cells.size(), CV_8UC3, kPaper);
-    cells.setTo(kFree, grid.cells == 254);
-    cells.setTo(kOccupied, grid.cells == 0);
-    canvas.image(cells, grid.p_world_corner, grid.resolution_m);
-  }
+  const auto paint = [&](unsigned char value, const cv::Scalar& paint_colour) {
+    if (!grid.cells.empty())
+      canvas.cells(grid.cells == value, grid.p_world_corner, grid.resolution_m, paint_colour);
+  };
+  paint(254, kFree);
   const double step = std::max(1.0, niceLength(160.0 / canvas.pixelsPerMetre()));
   const auto& box = canvas.visible();
   for (double x = std::ceil(box.min().x() / step) * step; x <= box.max().x(); x += step)
@@ -101,6 +100,7 @@ void drawGrid(const GridPicture& grid, Canvas& canvas) {
   for (double y = std::ceil(box.min().y() / step) * step; y <= box.max().y(); y += step)
     canvas.line(canvas.pixelOf({box.min().x(), y}), canvas.pixelOf({box.max().x(), y}), 0.5,
                 kMetreLine);
+  paint(0, kOccupied);
 }
 
 std::vector<Eigen::Vector2d> pixels(const Trajectory& trajectory, const Canvas& canvas) {

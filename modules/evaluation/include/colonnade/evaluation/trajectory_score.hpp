@@ -28,7 +28,8 @@ struct EvaluationOptions {
   Alignment alignment = Alignment::kSe2;
   /// Truth is interpolated between two samples at most this far apart.
   double max_truth_gap_s = 0.1;
-  /// A truth sample this near to a stamp is taken as it is, whatever the gaps beside it.
+  /// A truth sample this near to a stamp is taken as it is, whatever the gaps beside it; a gap may
+  /// also be longer by this, so that truth at 10 Hz is not lost to the rounding of its stamps.
   double same_stamp_s = 1e-3;
   /// Relative errors and path length do not reach over a longer time without a matched pose.
   double max_step_s = 1.0;
