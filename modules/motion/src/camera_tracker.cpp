@@ -14,7 +14,7 @@
 namespace colonnade {
 namespace {
 
-constexpr int kLevels = 3;
+constexpr int kLevels = 4;
 constexpr double kLongestCoast_s = 1.0;
 
 Eigen::Isometry3d scaledMotion(const Eigen::Isometry3d& T, double factor) {

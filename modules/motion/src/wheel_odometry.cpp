@@ -33,15 +33,18 @@ MotionIncrement odometryIncrement(const OdometryReading& previous, const Odometr
   const double way_m = T.translation().norm();
   const double turn = std::abs(T.phi);
   const auto variance = [](double sigma, double amount) { return sigma * sigma * amount; };
-  // Half the turn happens before the way on average: the way points along phi / 2.
-  const Eigen::Matrix2d R = Eigen::Rotation2Dd(0.5 * T.phi).toRotationMatrix();
   const double heading =
       variance(options.odometry_heading, way_m) + variance(options.odometry_turn, turn);
+  // A heading that walks randomly on the way L shifts the end across by variance * L^2 / 3, in step
+  // with its own end by variance * L / 2. Along and across refer to the chord.
+  const Eigen::Matrix2d R = Eigen::Rotation2Dd(std::atan2(T.y, T.x)).toRotationMatrix();
   Eigen::Matrix2d Q = Eigen::Matrix2d::Zero();
   Q(0, 0) = variance(options.odometry_along, way_m);
-  Q(1, 1) = variance(options.odometry_across, way_m) + 0.25 * way_m * way_m * heading;
+  Q(1, 1) = variance(options.odometry_across, way_m) + way_m * way_m * heading / 3.0;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   covariance.topLeftCorner<2, 2>() = R * Q * R.transpose();
+  covariance.topRightCorner<2, 1>() = R * Eigen::Vector2d(0.0, 0.5 * way_m * heading);
+  covariance.bottomLeftCorner<1, 2>() = covariance.topRightCorner<2, 1>().transpose();
   covariance(2, 2) = heading;
   covariance.diagonal() += floor;
   increment.covariance = covariance;

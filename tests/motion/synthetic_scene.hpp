@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <cstdint>
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "colonnade/base/angle.hpp"
+#include "colonnade/frames/floor_plane.hpp"
+#include "colonnade/frames/frame.hpp"
+
+namespace colonnade::testing {
+
+/// A plane of the world: points with normal . p = offset.
+struct Wall {
+  Eigen::Vector3d normal;
+  double offset;
+};
+
+/// Planes under a smooth pattern (or none), rendered exactly, one ray a pixel.
+struct Scene {
+  std::vector<Wall> walls;
+  bool textured = true;
+  double depth_noise = 0.0;  ///< sigma at 1 m, growing with the square of the depth
+
+  static Scene corridor(bool textured, bool closed) {
+    Scene scene;
+    scene.textured = textured;
+    scene.walls = {{Eigen::Vector3d::UnitZ(), 0.0},
+                   {Eigen::Vector3d::UnitY(), 1.0},
+                   {-Eigen::Vector3d::UnitY(), 1.2}};
+    if (closed) scene.walls.push_back({Eigen::Vector3d::UnitX(), 4.0});
+    return scene;
+  }
+
+  double brightness(const Eigen::Vector3d& p) const {
+    if (!textured) return 128.0;
+    const double a = p.x() + 0.6 * p.z();
+    const double b = p.y() + 0.8 * p.z();
+    return 128.0 + 28.0 * std::sin(9.0 * a + 1.0) + 28.0 * std::sin(11.0 * b) +
+           22.0 * std::sin(23.0 * a - 17.0 * b) + 18.0 * std::sin(5.0 * a + 29.0 * b + 2.0);
+  }
+
+  Frame render(std::size_t index, double stamp_s, const Eigen::Isometry3d& T_world_camera) const {
+    Frame frame;
+    frame.index = index;
+    frame.stamp_s = stamp_s;
+    frame.camera = {320, 240, 265.0, 265.0, 159.5, 119.5};
+    frame.gray.create(240, 320, CV_8UC1);
+    frame.depth_m.create(240, 320, CV_32FC1);
+    cv::RNG random(static_cast<std::uint64_t>(index) + 7U);
+    const Eigen::Vector3d origin = T_world_camera.translation();
+    for (int v = 0; v < 240; ++v) {
+      for (int u = 0; u < 320; ++u) {
+        const Eigen::Vector3d ray = T_world_camera.linear() * frame.camera.ray(u, v);
+        double nearest = 1e9;
+        for (const Wall& wall : walls) {
+          const double along = wall.normal.dot(ray);
+          const double depth = (wall.offset - wall.normal.dot(origin)) / along;
+          if (std::abs(along) > 1e-9 && depth > 0.0 && depth < nearest) nearest = depth;
+        }
+        const bool seen = nearest < 1e8;
+        const double noise = depth_noise > 0.0 ? random.gaussian(depth_noise) : 0.0;
+        frame.depth_m.at<float>(v, u) =
+            nearest < 7.0 ? static_cast<float>(nearest + noise * nearest * nearest) : 0.0f;
+        frame.gray.at<std::uint8_t>(v, u) =
+            seen ? static_cast<std::uint8_t>(std::lround(brightness(origin + nearest * ray))) : 128;
+      }
+    }
+    return frame;
+  }
+};
+
+/// The camera above (x, y) of the floor, looking along `heading`; positive pitch looks down,
+/// positive roll lowers its right side.
+inline Eigen::Isometry3d cameraInWorld(double x, double y, double height_m, double heading,
+                                       double pitch, double roll = 0.0) {
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  T.translation() << x, y, height_m;
+  Eigen::Matrix3d R_level_camera;
+  R_level_camera << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+  T.linear() = Eigen::AngleAxisd(heading, Eigen::Vector3d::UnitZ()).toRotationMatrix() *
+               Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitY()).toRotationMatrix() *
+               Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitX()).toRotationMatrix() *
+               R_level_camera;
+  return T;
+}
+
+/// The mounting that a camera pose implies: robot on the floor below, x = optical axis.
+inline Eigen::Isometry3d mountingOf(const Eigen::Isometry3d& T_world_camera) {
+  return cameraAboveFloor(T_world_camera.linear().transpose() * Eigen::Vector3d::UnitZ(),
+                          T_world_camera.translation().z());
+}
+
+}  // namespace colonnade::testing
