@@ -3,8 +3,6 @@
 #include "frame_assembler.hpp"
 
 #include <mrpt/obs/CActionCollection.h>
-#include <mrpt/obs/CActionRobotMovement2D.h>
-#include <mrpt/obs/CActionRobotMovement3D.h>
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/obs/CObservationBearingRange.h>
 #include <mrpt/obs/CObservationImage.h>
@@ -14,6 +12,7 @@
 
 #include <algorithm>
 
+#include "action_motion.hpp"
 #include "stamps.hpp"
 
 namespace colonnade {
@@ -28,12 +27,6 @@ using mrpt::obs::CObservationOdometry;
 Pose2 toPose2(const mrpt::poses::CPose2D& pose) { return {pose.x(), pose.y(), pose.phi()}; }
 
 bool isFinite(const Pose2& pose) { return pose.vector().allFinite(); }
-
-std::optional<Eigen::Matrix3d> usable(const mrpt::math::CMatrixDouble33& covariance) {
-  const Eigen::Matrix3d result = covariance.asEigen();
-  if (!result.allFinite() || result.isZero(0.0)) return std::nullopt;
-  return result;
-}
 
 RangeBearingScan toScan(const CObservationBearingRange& observation) {
   RangeBearingScan scan;
@@ -70,41 +63,11 @@ void FrameAssembler::add(const Entry& entry) {
 }
 
 void FrameAssembler::addActions(const mrpt::obs::CActionCollection& actions) {
-  // The first movement of a collection counts; a second one is another estimate of the same motion.
-  for (std::size_t i = 0; i < actions.size(); ++i) {
-    const mrpt::obs::CAction* action = &actions.get(i);
-    if (const auto* flat = dynamic_cast<const mrpt::obs::CActionRobotMovement2D*>(action)) {
-      if (!flat->poseChange) continue;
-      mrpt::poses::CPose2D mean;
-      mrpt::math::CMatrixDouble33 covariance;
-      flat->poseChange->getCovarianceAndMean(covariance, mean);
-      // Of odometry MRPT stores the reading and draws particles anew on loading when the model is
-      // Thrun's: the reading is exact, the particles' covariance would change from load to load.
-      using Movement = mrpt::obs::CActionRobotMovement2D;
-      const bool odometry = flat->estimationMethod == Movement::emOdometry;
-      const bool drawn =
-          odometry && flat->motionModelConfiguration.modelSelection != Movement::mmGaussian;
-      if (odometry) mean = flat->rawOdometryIncrementReading;
-      return addMotion(toPose2(mean), drawn ? std::nullopt : usable(covariance));
-    }
-    if (const auto* solid = dynamic_cast<const mrpt::obs::CActionRobotMovement3D*>(action)) {
-      const Pose2 motion = planarPart(toIsometry(solid->poseChange.mean));
-      const auto& all = solid->poseChange.cov;  // x y z yaw pitch roll
-      mrpt::math::CMatrixDouble33 covariance;
-      constexpr std::array<int, 3> kPlanar{0, 1, 3};
-      for (int row = 0; row < 3; ++row)
-        for (int column = 0; column < 3; ++column)
-          covariance(row, column) = all(kPlanar[static_cast<std::size_t>(row)],
-                                        kPlanar[static_cast<std::size_t>(column)]);
-      return addMotion(motion, usable(covariance));
-    }
-  }
-}
-
-void FrameAssembler::addMotion(const Pose2& T_before_after,
-                               const std::optional<Eigen::Matrix3d>& covariance) {
-  if (!isFinite(T_before_after)) return skip("motion with a value that is not finite");
-  motion_.add(T_before_after, covariance);
+  const auto motion = motionOf(actions);
+  if (!motion) return;
+  if (!motion->T_before_after.vector().allFinite())
+    return skip("motion with a value that is not finite");
+  motion_.add(motion->T_before_after, motion->covariance);
   motion_seen_ = true;
 }
 

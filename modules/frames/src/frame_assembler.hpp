@@ -36,6 +36,7 @@ class FrameAssembler {
   void add(const Entry& entry);
   /// No entry will follow: what waits may go.
   void finish() { finishing_ = true; }
+  const std::vector<std::string>& notes() const { return builder_.notes(); }
   bool finished() const { return finishing_ && waiting_.empty(); }
   /// The next frame that needs to wait no longer.
   std::optional<Frame> take();
@@ -52,7 +53,6 @@ class FrameAssembler {
   };
 
   void addActions(const mrpt::obs::CActionCollection& actions);
-  void addMotion(const Pose2& T_before_after, const std::optional<Eigen::Matrix3d>& covariance);
   void addSensoryFrame(const mrpt::obs::CSensoryFrame& frame);
   void addObservation(const std::shared_ptr<mrpt::obs::CObservation>& observation);
   /// Puts an observation into a candidate that lacks its kind. False: it is of no use for frames.

@@ -7,6 +7,7 @@
 
 #include "colonnade/base/error.hpp"
 #include "depth_registration.hpp"
+#include "edge_agreement.hpp"
 #include "lens.hpp"
 
 namespace colonnade {
@@ -37,9 +38,13 @@ bool fit(Calibration& calibration, const cv::Mat& pixels, std::string* problem) 
   return true;
 }
 
+/// MRPT's untouched TCamera has focal lengths of 0, older ones of 1.
+bool isGiven(const Calibration& calibration) {
+  return calibration.pinhole.fx_px > 1.0 && calibration.pinhole.fy_px > 1.0;
+}
+
 bool isSound(const PinholeCamera& c) {
-  // A focal length under a tenth or over 30 widths is no camera a robot carries; MRPT's untouched
-  // TCamera has 1 or 0.
+  // A focal length under a tenth or over 30 widths is no camera a robot carries.
   const double width = c.width_px;
   return std::isfinite(c.fx_px) && std::isfinite(c.fy_px) && std::isfinite(c.cx_px) &&
          std::isfinite(c.cy_px) && c.fx_px > 0.1 * width && c.fx_px < 30 * width &&
@@ -79,8 +84,7 @@ struct FrameBuilder::Impl {
                              options.fy_px, options.cx_px, options.cy_px};
       return true;
     }
-    const bool untouched = !(calibration.pinhole.fx_px > 1.0 && calibration.pinhole.fy_px > 1.0);
-    if (untouched)
+    if (!isGiven(calibration))
       throw Error(
           "the log does not calibrate its camera; give --set Camera.fx_px=... Camera.fy_px=... "
           "Camera.cx_px=... Camera.cy_px=... (pixels)",
@@ -106,10 +110,10 @@ struct FrameBuilder::Impl {
     return T_robot_camera;
   }
 
-  cv::Mat metres(const DepthView& view, const Calibration& calibration) {
+  static cv::Mat metres(const DepthView& view, const Calibration& calibration, Undistorter& lens) {
     cv::Mat depth;
     view.units.convertTo(depth, CV_32F, view.metres_per_unit);
-    depth = depth_lens.depth(depth, calibration);
+    depth = lens.depth(depth, calibration);
     if (!view.along_axis) alongAxis(depth, calibration.pinhole);
     return depth;
   }
@@ -123,26 +127,8 @@ struct FrameBuilder::Impl {
     }
   }
 
-  SourceOptions options;
-  bool overridden = false;
-  Undistorter image_lens, depth_lens;
-  DepthRegistration registration;
-};
-
-FrameBuilder::FrameBuilder(const SourceOptions& options) : impl_(std::make_unique<Impl>(options)) {}
-FrameBuilder::~FrameBuilder() = default;
-
-bool FrameBuilder::build(const std::optional<ImageView>& image,
-                         const std::optional<DepthView>& depth, Frame& frame,
-                         std::string* problem) {
-  Impl& s = *impl_;
-  if (image) {
-    Calibration calibration = image->calibration;
-    if (calibration.pinhole.fx_px <= 1.0 && depth &&
-        depth->T_robot_camera.isApprox(image->T_robot_camera, 1e-6))
-      calibration = depth->calibration;
-    if (!s.calibrate(calibration, image->pixels, problem)) return false;
-    const cv::Mat pixels = s.image_lens.image(image->pixels, calibration);
+  void addImage(const ImageView& image, const Calibration& calibration, Frame& frame) {
+    const cv::Mat pixels = image_lens.image(image.pixels, calibration);
     if (pixels.channels() == 3) {
       frame.colour = pixels;
       cv::cvtColor(pixels, frame.gray, cv::COLOR_BGR2GRAY);
@@ -150,27 +136,89 @@ bool FrameBuilder::build(const std::optional<ImageView>& image,
       frame.gray = pixels;
     }
     frame.camera = calibration.pinhole;
-    frame.T_robot_camera = image->T_robot_camera;
+    frame.T_robot_camera = image.T_robot_camera;
+  }
+
+  /// Depth in metres on the pixels of the image.
+  cv::Mat seenFromImage(const DepthView& depth, const ImageView& image, const Calibration& colour,
+                        const Frame& frame) {
+    const Eigen::Isometry3d T_camera_depth = image.T_robot_camera.inverse() * depth.T_robot_camera;
+    const bool same_size = depth.units.size() == image.pixels.size();
+    const auto by_log = [&] {
+      return registration.registered(metres(depth, depth.calibration, depth_lens),
+                                     depth.calibration.pinhole, frame.camera, T_camera_depth);
+    };
+    // Registered by the camera itself: depth has the pixels, and the lens, of the colour image.
+    const auto by_pixels = [&] { return metres(depth, colour, image_lens); };
+    if (coincide(frame.camera, depth.calibration.pinhole, T_camera_depth) &&
+        depth.calibration.lens == colour.lens)
+      return metres(depth, depth.calibration, depth_lens);
+    if (options.depth_alignment == "pixels" && same_size) return by_pixels();
+    if (options.depth_alignment == "log" || !same_size || alignment == Alignment::kLog)
+      return by_log();
+    if (alignment == Alignment::kPixels) return by_pixels();
+    return decideAlignment(by_log(), by_pixels(), frame.gray);
+  }
+
+  /// Compares where depth jumps with where the picture has edges. Remembers the answer once the
+  /// difference is clear; until then the log is believed.
+  cv::Mat decideAlignment(const cv::Mat& by_log, const cv::Mat& by_pixels, const cv::Mat& gray) {
+    constexpr int kLeastJumps = 500;
+    constexpr double kClearly = 1.15;
+    const auto log = edgeAgreement(by_log, gray), pixels = edgeAgreement(by_pixels, gray);
+    if (log.jumps < kLeastJumps || pixels.jumps < kLeastJumps) return by_log;
+    if (pixels.strength > kClearly * log.strength) {
+      alignment = Alignment::kPixels;
+      notes.push_back(
+          "depth lies on the pixels of the colour image already, against the calibration in the "
+          "log "
+          "(--set Camera.depth_alignment=log to insist on the calibration)");
+      return by_pixels;
+    }
+    if (log.strength > kClearly * pixels.strength) alignment = Alignment::kLog;
+    return by_log;
+  }
+
+  enum class Alignment { kOpen, kLog, kPixels };
+
+  SourceOptions options;
+  bool overridden = false;
+  Alignment alignment = Alignment::kOpen;
+  std::vector<std::string> notes;
+  Undistorter image_lens, depth_lens;
+  DepthRegistration registration;
+};
+
+FrameBuilder::FrameBuilder(const SourceOptions& options) : impl_(std::make_unique<Impl>(options)) {}
+FrameBuilder::~FrameBuilder() = default;
+
+const std::vector<std::string>& FrameBuilder::notes() const { return impl_->notes; }
+
+bool FrameBuilder::build(const std::optional<ImageView>& image,
+                         const std::optional<DepthView>& depth, Frame& frame,
+                         std::string* problem) {
+  Impl& s = *impl_;
+  if (!image && !depth) return true;
+  Calibration colour;
+  if (image) {
+    colour = image->calibration;
+    const bool borrow =
+        !isGiven(colour) && depth && depth->T_robot_camera.isApprox(image->T_robot_camera, 1e-6);
+    if (borrow) colour = depth->calibration;
+    if (!s.calibrate(colour, image->pixels, problem)) return false;
+    s.addImage(*image, colour, frame);
   }
   if (depth) {
-    Calibration calibration = depth->calibration;
-    if (calibration.pinhole.fx_px <= 1.0 && image) {
-      calibration = image->calibration;
-      if (s.overridden) calibration.lens = LensModel::kNone;
-    }
-    if (!s.calibrate(calibration, depth->units, problem)) return image.has_value();
-    cv::Mat depth_m = s.metres(*depth, calibration);
+    DepthView view = *depth;
+    if (!isGiven(view.calibration) && image) view.calibration = colour;
+    if (!s.calibrate(view.calibration, view.units, problem)) return image.has_value();
+    if (image)
+      frame.depth_m = s.seenFromImage(view, *image, colour, frame);
+    else
+      frame.depth_m = s.metres(view, view.calibration, s.depth_lens);
     if (!image) {
-      frame.camera = calibration.pinhole;
-      frame.T_robot_camera = depth->T_robot_camera;
-      frame.depth_m = depth_m;
-    } else {
-      const Eigen::Isometry3d T_camera_depth =
-          image->T_robot_camera.inverse() * depth->T_robot_camera;
-      frame.depth_m = coincide(frame.camera, calibration.pinhole, T_camera_depth)
-                          ? depth_m
-                          : s.registration.registered(depth_m, calibration.pinhole, frame.camera,
-                                                      T_camera_depth);
+      frame.camera = view.calibration.pinhole;
+      frame.T_robot_camera = view.T_robot_camera;
     }
   }
   frame.T_robot_camera = s.mounted(frame.T_robot_camera);

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "camera_views.hpp"
 #include "colonnade/frames/rawlog_source.hpp"
@@ -23,6 +24,9 @@ class FrameBuilder {
   /// not fit the image. Throws Error(kUsage) when there is no calibration at all.
   bool build(const std::optional<ImageView>& image, const std::optional<DepthView>& depth,
              Frame& frame, std::string* problem);
+
+  /// What was decided against the word of the log.
+  const std::vector<std::string>& notes() const;
 
  private:
   struct Impl;

@@ -36,5 +36,6 @@ std::optional<Frame> RawlogSource::next() {
 
 const Damage& RawlogSource::damage() const { return impl_->reader.damage(); }
 double RawlogSource::progress() const { return impl_->reader.stream().progress(); }
+const std::vector<std::string>& RawlogSource::notes() const { return impl_->assembler.notes(); }
 
 }  // namespace colonnade

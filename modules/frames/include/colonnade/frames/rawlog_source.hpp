@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "colonnade/base/angle.hpp"
 #include "colonnade/base/options.hpp"
@@ -23,6 +24,7 @@ struct SourceOptions {
   std::string tilt = "log";
   double pitch = 0.0;  ///< used with tilt = given; positive looks down
   double roll = 0.0;   ///< used with tilt = given; positive: the right side of the camera is lower
+  std::string depth_alignment = "auto";
   std::string sensor_label;  ///< the camera to use where a log has several; empty: the first one
 
   void visit(OptionVisitor& v) {
@@ -34,6 +36,9 @@ struct SourceOptions {
     v.choice("tilt", tilt, {"log", "given"}, "where pitch and roll of the camera come from");
     v.angle("pitch_deg", pitch, {-80, 80}, "with tilt = given: positive looks down");
     v.angle("roll_deg", roll, {-80, 80}, "with tilt = given: positive lowers the right side");
+    v.choice("depth_alignment", depth_alignment, {"auto", "log", "pixels"},
+             "depth to colour: by the log's calibration, pixel by pixel (registered by the camera "
+             "itself), or whichever puts depth jumps on image edges");
   }
 };
 
@@ -43,9 +48,12 @@ struct SourceOptions {
 /// Colour and depth come from CObservation3DRangeScan, or from CObservationImage (colour) and a
 /// CObservation3DRangeScan without intensity (depth) whose stamps differ by at most 0.02 s. Lens
 /// distortion is removed; depth is registered to the colour camera where the two do not coincide.
-/// Odometry comes from CActionRobotMovement2D/3D (summed up) or CObservationOdometry (interpolated
-/// at the stamp of the frame; gaps over 1 s are not bridged). CObservationBearingRange fills
-/// `Frame::range_bearing`. Everything else is counted in `Damage::ignored`.
+/// Some drivers log depth the camera has registered already together with the calibration of the
+/// raw sensors (MRPT's own example does): with depth_alignment = auto the first frames decide by
+/// where depth jumps and image edges meet, and notes() tells. Odometry comes from
+/// CActionRobotMovement2D/3D (summed up) or CObservationOdometry (interpolated at the stamp of the
+/// frame; gaps over 1 s are not bridged). CObservationBearingRange fills `Frame::range_bearing`.
+/// Everything else is counted in `Damage::ignored`.
 class RawlogSource : public FrameSource {
  public:
   /// Throws Error when `path` is no readable rawlog or the options contradict each other.
@@ -56,6 +64,8 @@ class RawlogSource : public FrameSource {
   std::optional<Frame> next() override;
   const Damage& damage() const override;
   double progress() const override;
+  /// What the source decided against the word of the log, one line each.
+  const std::vector<std::string>& notes() const;
 
  private:
   struct Impl;
