@@ -4,105 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <optional>
 #include <tuple>
 
+#include "line_walker.hpp"
+
 namespace colonnade {
 namespace {
-
-struct Sample {
-  double s = 0.0;       ///< along
-  double across = 0.0;  ///< sub-pixel
-  int sector = 0;       ///< of the gradient
-};
-using Samples = std::vector<Sample>;
-
-struct SignedSamples {
-  Samples rising;
-  Samples falling;
-};
-
-struct Straight {
-  double middle = 0.0;
-  double offset = 0.0;
-  double slope = 0.0;
-  double across(double s) const { return offset + slope * (s - middle); }
-};
-
-/// The image seen along steep (s = row) or flat (s = column) lines.
-class Walker {
- public:
-  Walker(const cv::Mat& gray, const cv::Mat& edges, bool steep)
-      : gray_(gray.data),
-        edges_(edges.data),
-        gray_s_(stride(gray, steep)),
-        gray_t_(stride(gray, !steep)),
-        edges_s_(stride(edges, steep)),
-        edges_t_(stride(edges, !steep)),
-        length_(steep ? edges.rows : edges.cols),
-        width_(steep ? edges.cols : edges.rows),
-        sign_of_code_(steep ? kSteep : kFlat) {}
-
-  /// Edge pixels within `reach` of the line, the one nearest to the line in each step, apart for
-  /// gradients that point along +1 and -1 across it.
-  SignedSamples collect(const Straight& line, double reach) const {
-    SignedSamples samples;
-    for (int s = 1; s + 1 < length_; ++s) {
-      const double centre = line.across(s);
-      if (centre < 0.0 || centre > width_) continue;
-      const int low = std::max(2, static_cast<int>(std::ceil(centre - reach)));
-      const int high = std::min(width_ - 3, static_cast<int>(std::floor(centre + reach)));
-      int nearest[2] = {-1, -1};
-      const std::uint8_t* edge = edges_ + s * edges_s_;
-      for (int t = low; t <= high; ++t) {
-        const int code = edge[t * edges_t_];
-        if (code == 0) continue;
-        const int sign = sign_of_code_[code];
-        if (sign == 0) continue;
-        int& best = nearest[sign > 0 ? 0 : 1];
-        if (best < 0 || std::abs(t - centre) < std::abs(best - centre)) best = t;
-      }
-      if (nearest[0] >= 0) samples.rising.push_back(measured(s, nearest[0]));
-      if (nearest[1] >= 0) samples.falling.push_back(measured(s, nearest[1]));
-    }
-    return samples;
-  }
-
- private:
-  /// Which way across the line a gradient points, by edge code (0 is no edge, then the sectors).
-  static constexpr int kSteep[9] = {0, 1, 1, 0, -1, -1, -1, 0, 1};
-  static constexpr int kFlat[9] = {0, 0, 1, 1, 1, 0, -1, -1, -1};
-
-  static std::ptrdiff_t stride(const cv::Mat& image, bool rows) {
-    return rows ? static_cast<std::ptrdiff_t>(image.step[0]) : 1;
-  }
-
-  int gray(int s, int t) const { return gray_[s * gray_s_ + t * gray_t_]; }
-
-  double gradient(int s, int t) const {
-    return std::abs(gray(s - 1, t + 1) - gray(s - 1, t - 1) +
-                    2 * (gray(s, t + 1) - gray(s, t - 1)) + gray(s + 1, t + 1) -
-                    gray(s + 1, t - 1));
-  }
-
-  /// Vertex of the parabola through three gradient magnitudes, at most half a pixel away.
-  Sample measured(int s, int t) const {
-    const double before = gradient(s, t - 1);
-    const double here = gradient(s, t);
-    const double after = gradient(s, t + 1);
-    const double curvature = before - 2.0 * here + after;
-    const double shift =
-        curvature < 0.0 ? std::clamp(0.5 * (before - after) / curvature, -0.5, 0.5) : 0.0;
-    return {static_cast<double>(s), t + shift, edges_[s * edges_s_ + t * edges_t_] - 1};
-  }
-
-  const std::uint8_t* gray_;
-  const std::uint8_t* edges_;
-  std::ptrdiff_t gray_s_, gray_t_, edges_s_, edges_t_;
-  int length_, width_;
-  const int* sign_of_code_;
-};
 
 /// Least squares over samples; the covariance is per unit variance of one sample.
 std::optional<Straight> leastSquares(const Samples& samples, Eigen::Matrix2d* covariance) {
