@@ -52,8 +52,10 @@ class Walker {
     for (int s = 1; s + 1 < length_; ++s) {
       const double centre = line.across(s);
       if (centre < 0.0 || centre > width_) continue;
-      const int low = std::max(2, static_cast<int>(std::ceil(centre - reach)));
-      const int high = std::min(width_ - 3, static_cast<int>(std::floor(centre + reach)));
+      // Casts instead of ceil and floor, which are calls: centre - reach may be negative, but then
+      // the border wins.
+      const int low = std::max(2, static_cast<int>(centre - reach) + 1);
+      const int high = std::min(width_ - 3, static_cast<int>(centre + reach));
       int nearest[2] = {-1, -1};
       const std::uint8_t* edge = edges_ + s * edges_s_;
       for (int t = low; t <= high; ++t) {

@@ -55,6 +55,7 @@ std::optional<Straight> consensus(const Samples& samples, double inlier_px) {
       if (count > best_count) {
         best_count = count;
         best = line;
+        if (count * 10 >= static_cast<int>(n) * 9) return best;
       }
     }
   }
