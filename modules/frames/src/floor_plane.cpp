@@ -15,6 +15,7 @@ namespace {
 constexpr int kGridColumns = 80;
 constexpr int kHypotheses = 120;
 constexpr int kRefinements = 4;
+constexpr float kBelow = 3.0F;  ///< tolerances below a plane that count as under it
 
 /// A Kinect-style sensor's depth noise grows with the square of the depth (Khoshelham and Elberink
 /// 2012, about 1.4 mm at 1 m); generous, since floors are seen at a grazing angle.
@@ -99,7 +100,7 @@ int score(const Plane& plane, const std::vector<Sample>& samples) {
     const float distance = plane.normal.dot(s.p) + plane.height;
     if (std::abs(distance) < s.tolerance)
       on += s.faces_up ? 1 : 0;
-    else if (distance < -3.0F * s.tolerance)
+    else if (distance < -kBelow * s.tolerance)
       ++under;
   }
   return on - under;
@@ -139,18 +140,13 @@ std::optional<FloorPlane> refine(Plane plane, const std::vector<Sample>& samples
   return result;
 }
 
-}  // namespace
-
-std::optional<FloorPlane> fitFloorPlane(const cv::Mat& depth_m, const PinholeCamera& camera,
-                                        const FloorPrior& prior) {
-  if (depth_m.empty() || !camera.isCalibrated()) return std::nullopt;
-  const auto samples = sample(depth_m, camera, prior);
+/// The best plane among the samples, or nothing.
+std::optional<FloorPlane> fitOnce(const std::vector<Sample>& samples, const FloorPrior& prior,
+                                  Dice& dice) {
   std::vector<std::size_t> candidates;
   for (std::size_t i = 0; i < samples.size(); ++i)
     if (samples[i].faces_up) candidates.push_back(i);
   if (candidates.size() < static_cast<std::size_t>(prior.least_inliers)) return std::nullopt;
-
-  Dice dice;
   std::optional<Plane> best;
   int best_score = 0;
   const auto draw = [&] { return samples[candidates[dice.below(candidates.size())]].p; };
@@ -174,6 +170,29 @@ std::optional<FloorPlane> fitFloorPlane(const cv::Mat& depth_m, const PinholeCam
   if (!floor || floor->inliers < prior.least_inliers) return std::nullopt;
   if (!plausible({floor->normal_camera.cast<float>(), static_cast<float>(floor->height_m)}, prior))
     return std::nullopt;
+  return floor;
+}
+
+}  // namespace
+
+std::optional<FloorPlane> fitFloorPlane(const cv::Mat& depth_m, const PinholeCamera& camera,
+                                        const FloorPrior& prior) {
+  if (depth_m.empty() || !camera.isCalibrated()) return std::nullopt;
+  auto samples = sample(depth_m, camera, prior);
+  Dice dice;
+  auto floor = fitOnce(samples, prior, dice);
+  // A table can show more points than the floor around it: look below as long as there is a plane.
+  constexpr int kMostLevels = 3;
+  constexpr double kLeastShare = 0.15;  // of the points of the plane above
+  for (int level = 0; floor && level < kMostLevels; ++level) {
+    const Eigen::Vector3f normal = floor->normal_camera.cast<float>();
+    const auto height = static_cast<float>(floor->height_m);
+    std::erase_if(
+        samples, [&](const Sample& s) { return normal.dot(s.p) + height > -kBelow * s.tolerance; });
+    const auto lower = fitOnce(samples, prior, dice);
+    if (!lower || lower->inliers < kLeastShare * floor->inliers) break;
+    floor = lower;
+  }
   return floor;
 }
 

@@ -3,6 +3,7 @@
 #include "frame_builder.hpp"
 
 #include <cmath>
+#include <cstdint>
 #include <opencv2/imgproc.hpp>
 
 #include "colonnade/base/error.hpp"
@@ -22,7 +23,8 @@ bool fit(Calibration& calibration, const cv::Mat& pixels, std::string* problem) 
   auto& c = calibration.pinhole;
   if (c.width_px == pixels.cols && c.height_px == pixels.rows) return true;
   if (c.width_px <= 0 || c.height_px <= 0 ||
-      c.width_px * pixels.rows != c.height_px * pixels.cols) {
+      static_cast<std::int64_t>(c.width_px) * pixels.rows !=
+          static_cast<std::int64_t>(c.height_px) * pixels.cols) {
     *problem = "calibration for " + sizeText(c.width_px, c.height_px) +
                " does not fit the image of " + sizeText(pixels.cols, pixels.rows);
     return false;

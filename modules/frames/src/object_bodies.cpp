@@ -55,6 +55,7 @@ struct Bodies {
     knowIf(version >= 7 && version <= 9);
     if (w.flag()) {  // stored in a file of its own
       w.text();
+      return;
     }
     const bool colour = w.flag();
     const auto width = w.bytes_.take<std::int32_t>(), height = w.bytes_.take<std::int32_t>();

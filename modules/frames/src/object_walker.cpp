@@ -40,7 +40,8 @@ void ObjectWalker::walkObject(const std::string& base, int depth) {
   const auto header = readHeader(bytes_);
   if (header.is_null) throw BadBytes("an empty object");
   const auto* type = mrpt::rtti::findRegisteredClass(header.class_name);
-  if (!type) throw BadBytes("class " + header.class_name + " is not known");
+  if (!type || !type->ptrCreateObject)
+    throw BadBytes("class " + header.class_name + " is not known");
   if (!base.empty() && header.short_name != base) {
     const auto* base_type = mrpt::rtti::findRegisteredClass(base);
     if (!base_type || !type->derivedFrom(base_type))
