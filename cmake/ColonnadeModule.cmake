@@ -35,6 +35,8 @@ function(colonnade_test name)
   add_executable(test_${name} ${ARG_SOURCES})
   target_include_directories(test_${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests/support)
   target_link_libraries(test_${name} PRIVATE ${ARG_LINKS} colonnade_flags GTest::gmock_main)
-  gtest_discover_tests(test_${name} PROPERTIES TIMEOUT 600 DISCOVERY_TIMEOUT 60
-    ENVIRONMENT "COLONNADE_SOURCE=${PROJECT_SOURCE_DIR};COLONNADE_PROGRAM=$<TARGET_FILE:colonnade_program>")
+  target_compile_definitions(test_${name} PRIVATE
+    COLONNADE_SOURCE="${PROJECT_SOURCE_DIR}"
+    COLONNADE_PROGRAM="$<TARGET_FILE:colonnade_program>")
+  gtest_discover_tests(test_${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
 endfunction()

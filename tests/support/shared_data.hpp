@@ -10,16 +10,10 @@
 namespace colonnade::testing {
 
 /// The repository under test.
-inline std::filesystem::path sourceFolder() {
-  const char* folder = std::getenv("COLONNADE_SOURCE");
-  return folder ? folder : ".";
-}
+inline std::filesystem::path sourceFolder() { return COLONNADE_SOURCE; }
 
 /// The built program, for tests that run it as a user does.
-inline std::filesystem::path program() {
-  const char* path = std::getenv("COLONNADE_PROGRAM");
-  return path ? path : "colonnade";
-}
+inline std::filesystem::path program() { return COLONNADE_PROGRAM; }
 
 /// A real recording below COLONNADE_DATA (default: ../shared/data beside the repository), or
 /// nothing.

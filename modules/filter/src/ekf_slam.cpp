@@ -61,6 +61,12 @@ Eigen::MatrixXd innovationCovariance(const State& state, const Stack& s) {
 
 }  // namespace
 
+double correlatedNoiseScale(double interval_s, double correlation_s) {
+  if (interval_s <= 0.0 || correlation_s <= 0.0) return 1.0;
+  const double rho = std::exp(-interval_s / correlation_s);
+  return (1.0 + rho) / (1.0 - rho);
+}
+
 bool EkfSlam::predict(const Pose2& T_previous_robot, const Eigen::Matrix3d& Q) {
   if (!T_previous_robot.vector().allFinite() || !isCovariance(Q)) {
     health_.refuse("motion not finite");
@@ -93,7 +99,7 @@ std::optional<double> EkfSlam::jointDistance2(std::span<const Match> matches) co
   return mahalanobis2(s.nu, innovationCovariance(state_, s));
 }
 
-std::vector<bool> EkfSlam::update(std::span<const Match> matches) {
+std::vector<bool> EkfSlam::update(std::span<const Match> matches, double noise_scale) {
   std::vector<bool> used(matches.size(), false);
   std::vector<Match> accepted;
   std::vector<double> distances;
@@ -117,7 +123,7 @@ std::vector<bool> EkfSlam::update(std::span<const Match> matches) {
   }
   if (accepted.empty()) return used;
   const Stack s = stack(state_, accepted);
-  if (!correct(state_, s.H, s.nu, s.R, options_.invariant)) {
+  if (!correct(state_, s.H, s.nu, noise_scale * s.R, options_.invariant)) {
     health_.refuse("joint innovation covariance singular");
     return std::vector<bool>(matches.size(), false);
   }

@@ -3,6 +3,7 @@
 #include "colonnade/slam/session.hpp"
 
 #include <chrono>
+#include <limits>
 
 namespace colonnade {
 namespace {
@@ -79,6 +80,7 @@ void Session::run(FrameSource& source, const Observer& observer) {
   auto& [tracker, mounting, motion, backend, detectors, filter, landmarks, association, initializer,
          axes] = *stages_;
   Stopwatch watch;
+  double former_stamp_s = std::numeric_limits<double>::infinity();
   while (auto frame = source.next()) {
     StepReport report;
     report.times_ms.read = watch.lap();
@@ -96,7 +98,10 @@ void Session::run(FrameSource& source, const Observer& observer) {
     filter.predict(report.motion.T_previous_robot, report.motion.covariance);
     axes.step(*frame, detectors.wallDirections(), filter, report.events);
     report.association = association.match(report.detections, filter, landmarks);
-    const auto used = filter.update(report.association.matches);
+    const double noise_scale =
+        correlatedNoiseScale(frame->stamp_s - former_stamp_s, filter.options().error_correlation_s);
+    former_stamp_s = frame->stamp_s;
+    const auto used = filter.update(report.association.matches, noise_scale);
     book(*frame, report, used, filter, landmarks);
     initializer.step(*frame, report.detections, report.association, filter, landmarks,
                      report.events);

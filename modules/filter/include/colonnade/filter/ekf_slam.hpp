@@ -19,6 +19,12 @@ struct Match {
   Measurement measurement;
 };
 
+/// How much more often one has to measure when each error resembles the former one: for errors
+/// whose correlation falls as rho = exp(-interval / correlation), the variance of their mean is (1
+/// + rho) / (1 - rho) times that of independent ones (first-order autoregressive process; Box,
+/// Jenkins, Reinsel, Time Series Analysis, section 3.2). 1 for an interval of 0 or less: unknown.
+double correlatedNoiseScale(double interval_s, double correlation_s);
+
 /// What the filter expects against what was measured.
 struct Innovation {
   MeasurementVector nu;      ///< measured minus predicted, angles wrapped
@@ -44,8 +50,9 @@ class EkfSlam {
   std::optional<double> jointDistance2(std::span<const Match> matches) const;
 
   /// One joint correction with all matches that are finite and within their gate; the others are
-  /// counted. Returns which were used, one flag per match.
-  std::vector<bool> update(std::span<const Match> matches);
+  /// counted. Returns which were used, one flag per match. `noise_scale` widens R for the
+  /// correction but not for the gate: what a measurement is worth, beside how far it may lie off.
+  std::vector<bool> update(std::span<const Match> matches, double noise_scale = 1.0);
 
   /// A new landmark from one measurement with range or of a floor edge. Nothing when not finite.
   std::optional<LandmarkId> addLandmark(const Measurement& measurement);

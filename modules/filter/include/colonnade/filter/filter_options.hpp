@@ -12,6 +12,7 @@ struct FilterOptions {
   bool invariant = true;
   double gate_probability = 0.99;
   double inverse_depth_linearity = 0.1;
+  double error_correlation_s = 0.5;
 
   void visit(OptionVisitor& v) {
     v.flag("invariant", invariant, "right-invariant transport of the covariance; false: plain EKF");
@@ -19,6 +20,8 @@ struct FilterOptions {
              "share of right measurements the chi-square gate lets through");
     v.number("inverse_depth_linearity", inverse_depth_linearity, {0.001, 1},
              "linearity index below which inverse depth becomes x, y (Civera 2008, eq. 35)");
+    v.number("error_correlation_s", error_correlation_s, {0, 60},
+             "time over which errors of one landmark's measurements stay alike");
   }
 };
 
