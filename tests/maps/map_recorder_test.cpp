@@ -131,6 +131,7 @@ TEST_F(RecordedMaps, SceneLoadsAndShowsTheLandmarks) {
     EXPECT_TRUE(scene.getByName(name)) << name;
   EXPECT_TRUE(scene.getByName("pillar 3"));
   EXPECT_TRUE(scene.getByName("depth_slope 12"));
+  EXPECT_TRUE(scene.getByName("floor_edge 10"));
 }
 
 TEST_F(RecordedMaps, ScanLogHoldsTheMotionUsedWithItsCovariance) {

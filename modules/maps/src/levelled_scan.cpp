@@ -100,8 +100,8 @@ void ScanCutter::prepare(const Frame& frame) {
   obstacles_.resize(beams);
   floor_.resize(beams);
   pixels_.clear();
-  for (int v = options_.pixel_step / 2; v <= bottom; v += options_.pixel_step)
-    for (int u = options_.pixel_step / 2; u <= right; u += options_.pixel_step) {
+  for (int v = options_.row_step / 2; v <= bottom; v += options_.row_step)
+    for (int u = options_.column_step / 2; u <= right; u += options_.column_step) {
       const Eigen::Vector3d ray = R_scan_camera * camera_.ray(u, v);
       const double azimuth = std::atan2(ray.y(), ray.x());
       const auto beam =

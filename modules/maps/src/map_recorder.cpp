@@ -116,7 +116,6 @@ MapFiles MapRecorder::finish(const MapContents& contents) {
   auto& key_frames = impl_->key_frames;
   moveTo(contents.trajectory, key_frames);
   auto metric_maps = mrpt::maps::CMultiMetricMap::Create();
-  mrpt::maps::COccupancyGridMap2D::Ptr grid;
   GridPicture grid_picture;
   if (impl_->scan_log.scans() > 0) {
     impl_->scan_log.finish();
@@ -130,7 +129,7 @@ MapFiles MapRecorder::finish(const MapContents& contents) {
         (impl_->depth_seen ? "no obstacle in any depth image" : "no frame has depth"));
   } else {
     writeObject(file("map.simplemap"), toSimpleMap(key_frames));
-    grid = buildGrid(key_frames, impl_->options.grid_resolution_m);
+    const auto grid = buildGrid(key_frames, impl_->options.grid_resolution_m);
     writeObject(file("map.gridmap.gz"), *grid);
     grid_picture = toPicture(*grid);
     writeNavigationMap(impl_->folder, "map", grid_picture);
@@ -143,7 +142,8 @@ MapFiles MapRecorder::finish(const MapContents& contents) {
   writeObject(file("map.landmarksmap.gz"), *landmarks);
   metric_maps->maps.push_back(landmarks);
   writeObject(file("map.metricmap.gz"), *metric_maps);
-  writeObject(file("map.3Dscene"), makeScene(contents.landmarks, contents.trajectory, grid.get()));
+  writeObject(file("map.3Dscene"),
+              makeScene(contents.landmarks, contents.trajectory, grid_picture));
   writeMapPicture(file("map_overview.png"), {.title = contents.title,
                                              .landmarks = contents.landmarks,
                                              .trajectory = contents.trajectory,

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene.hpp"
 
+#include <mrpt/opengl/CBox.h>
 #include <mrpt/opengl/CCylinder.h>
 #include <mrpt/opengl/CEllipsoid2D.h>
 #include <mrpt/opengl/CGridPlaneXY.h>
+#include <mrpt/opengl/CPointCloud.h>
 #include <mrpt/opengl/CSetOfLines.h>
 #include <mrpt/opengl/CSetOfObjects.h>
 #include <mrpt/opengl/CText.h>
@@ -21,7 +23,7 @@ using mrpt::img::TColorf;
 
 constexpr float kColumnHeight_m = 2.0F;
 constexpr float kQuantile95 = 2.4477F;  ///< sqrt of the 95 % point of chi-squared with 2
-constexpr double kLift_m = 0.01;        ///< so that nothing hides in the floor
+constexpr double kLift_m = 0.05;  ///< so that nothing hides in the floor: depth buffers are coarse
 
 TColor colour(LandmarkKind kind) {
   switch (kind) {
@@ -60,6 +62,7 @@ void addColumn(const LandmarkRecord& landmark, mrpt::opengl::CSetOfObjects& colu
   const float radius = landmark.kind == LandmarkKind::kPillarEdge ? 0.03F : 0.02F;
   auto column = mrpt::opengl::CCylinder::Create(radius, radius, kColumnHeight_m, 12);
   column->setName(std::string(name(landmark.kind)) + " " + id);
+  column->enableLight(false);
   column->setColor_u8(kind_colour);
   column->setLocation(p.x(), p.y(), 0.0);
   column_set.insert(column);
@@ -76,18 +79,25 @@ void addColumn(const LandmarkRecord& landmark, mrpt::opengl::CSetOfObjects& colu
   column_set.insert(ellipse);
 }
 
-mrpt::opengl::CSetOfLines::Ptr floorEdges(const LandmarkMap& landmarks) {
-  auto lines = mrpt::opengl::CSetOfLines::Create();
-  lines->setName("floor edges");
-  lines->setColor_u8(colour(LandmarkKind::kFloorEdge));
-  lines->setLineWidth(4.0F);
+/// Flat bars: wide lines are thin ones with most graphics drivers.
+mrpt::opengl::CSetOfObjects::Ptr floorEdges(const LandmarkMap& landmarks) {
+  constexpr double kHalfWidth_m = 0.02;
+  auto edges = mrpt::opengl::CSetOfObjects::Create();
+  edges->setName("floor edges");
   for (const auto& landmark : landmarks) {
-    if (landmark.kind != LandmarkKind::kFloorEdge) continue;
-    const auto& a = landmark.extent_a;
-    const auto& b = landmark.extent_b;
-    lines->appendLine(a.x(), a.y(), kLift_m, b.x(), b.y(), kLift_m);
+    const Eigen::Vector2d along = landmark.extent_b - landmark.extent_a;
+    if (landmark.kind != LandmarkKind::kFloorEdge || !along.allFinite()) continue;
+    auto bar =
+        mrpt::opengl::CBox::Create(mrpt::math::TPoint3D(0.0, -kHalfWidth_m, 0.9 * kLift_m),
+                                   mrpt::math::TPoint3D(along.norm(), kHalfWidth_m, kLift_m));
+    bar->setName(std::string(name(landmark.kind)) + " " + std::to_string(number(landmark.id)));
+    bar->setColor_u8(colour(landmark.kind));  // keep its light: without, MRPT 2.5.8 draws no box
+    bar->enableBoxBorder(false);
+    bar->setPose(mrpt::poses::CPose3D(landmark.extent_a.x(), landmark.extent_a.y(), 0.0,
+                                      std::atan2(along.y(), along.x()), 0.0, 0.0));
+    edges->insert(bar);
   }
-  return lines;
+  return edges;
 }
 
 mrpt::opengl::CSetOfLines::Ptr path(const Trajectory& trajectory) {
@@ -101,6 +111,23 @@ mrpt::opengl::CSetOfLines::Ptr path(const Trajectory& trajectory) {
     lines->appendLine(a.x(), a.y(), a.z() + kLift_m, b.x(), b.y(), b.z() + kLift_m);
   }
   return lines;
+}
+
+/// The occupied cells as points. A textured plane would show the free ones too, but MRPT 2.5.8
+/// draws those over lines and text, whatever their heights.
+mrpt::opengl::CPointCloud::Ptr occupancy(const GridPicture& grid) {
+  auto points = mrpt::opengl::CPointCloud::Create();
+  points->setName("occupancy");
+  points->setColor_u8(TColor(86, 96, 110));
+  points->setPointSize(3.0F);
+  for (int row = 0; row < grid.cells.rows; ++row)
+    for (int column = 0; column < grid.cells.cols; ++column) {
+      if (grid.cells.at<unsigned char>(row, column) != 0) continue;
+      const Eigen::Vector2d cell(column + 0.5, grid.cells.rows - row - 0.5);
+      const Eigen::Vector2d p_world = grid.p_world_corner + grid.resolution_m * cell;
+      points->insertPoint(static_cast<float>(p_world.x()), static_cast<float>(p_world.y()), 0.0F);
+    }
+  return points;
 }
 
 mrpt::opengl::CSetOfObjects::Ptr legend(const LandmarkMap& landmarks, const Eigen::Vector2d& at) {
@@ -125,7 +152,7 @@ mrpt::opengl::CSetOfObjects::Ptr legend(const LandmarkMap& landmarks, const Eige
 }  // namespace
 
 mrpt::opengl::COpenGLScene makeScene(const LandmarkMap& landmarks, const Trajectory& trajectory,
-                                     const mrpt::maps::COccupancyGridMap2D* grid) {
+                                     const GridPicture& grid) {
   mrpt::opengl::COpenGLScene scene;
   const auto box = extentOf(landmarks, trajectory);
   const Eigen::Vector2d low = (box.min().array() - 1.0).floor();
@@ -136,13 +163,7 @@ mrpt::opengl::COpenGLScene makeScene(const LandmarkMap& landmarks, const Traject
   metres->setName("metre grid");
   metres->setColor_u8(TColor(190, 195, 200));
   scene.insert(metres);
-  if (grid) {
-    auto occupancy = mrpt::opengl::CSetOfObjects::Create();
-    occupancy->setName("occupancy");
-    occupancy->setLocation(0.0, 0.0, -kLift_m);
-    grid->getVisualizationInto(*occupancy);
-    scene.insert(occupancy);
-  }
+  if (!grid.cells.empty()) scene.insert(occupancy(grid));
   auto columns = mrpt::opengl::CSetOfObjects::Create();
   columns->setName("vertical landmarks");
   for (const auto& landmark : landmarks)
@@ -156,7 +177,9 @@ mrpt::opengl::COpenGLScene makeScene(const LandmarkMap& landmarks, const Traject
   view->setCustomBackgroundColor(TColorf(1.0F, 1.0F, 1.0F));
   auto& camera = view->getCamera();
   camera.setPointingAt(mrpt::math::TPoint3D(box.center().x(), box.center().y(), 0.0));
-  camera.setZoomDistance(static_cast<float>(1.3 * box.diagonal().norm() + 3.0));
+  const auto distance = static_cast<float>(1.2 * box.diagonal().norm() + 3.0);
+  camera.setZoomDistance(distance);
+  view->setViewportClipDistances(0.1F, 20.0F * distance);
   camera.setAzimuthDegrees(-90.0F);
   camera.setElevationDegrees(50.0F);
   return scene;

@@ -22,7 +22,8 @@ struct ScanOptions {
   double min_range_m = 0.3;
   double max_range_m = 6.0;
   double beam_width = radians(0.5);
-  int pixel_step = 2;  ///< every how many rows and columns of the depth image are used
+  int column_step = 2;  ///< every how many columns of the depth image are used
+  int row_step = 4;
   int min_pixels = 4;  ///< used pixels that must agree on an obstacle
 
   void visit(OptionVisitor& v) {
@@ -32,7 +33,8 @@ struct ScanOptions {
     v.number("min_range_m", min_range_m, {0, 5}, "nearer depth is ignored");
     v.number("max_range_m", max_range_m, {0.5, 30}, "farther depth is ignored");
     v.angle("beam_width_deg", beam_width, {0.1, 5}, "between two beams");
-    v.integer("pixel_step", pixel_step, {1, 16}, "rows and columns of depth between two used");
+    v.integer("column_step", column_step, {1, 16}, "1 = use every column of the depth image");
+    v.integer("row_step", row_step, {1, 16}, "1 = use every row of the depth image");
     v.integer("min_pixels", min_pixels, {1, 1000}, "that must agree on an obstacle");
   }
 };
