@@ -292,6 +292,7 @@ TEST(Assembly, AMissingImageFileLosesTheImageOnly) {
   }
   const auto read = readLog(folder / "a.rawlog");
   ASSERT_EQ(read.frames.size(), 2U) << read.damage.detail;
+  ASSERT_FALSE(read.frames[0].colour.empty());
   EXPECT_EQ(read.frames[0].colour.at<cv::Vec3b>(5, 5), cv::Vec3b(0, 0, 255)) << "BGR";
   EXPECT_TRUE(read.frames[1].colour.empty());
   EXPECT_FALSE(read.frames[1].depth_m.empty());

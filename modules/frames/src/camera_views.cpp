@@ -10,6 +10,8 @@
 #include <cmath>
 #include <opencv2/imgcodecs.hpp>
 
+#include "colonnade/base/log_path.hpp"
+
 namespace colonnade {
 namespace {
 
@@ -39,10 +41,11 @@ std::optional<cv::Mat> pixelsOf(const mrpt::img::CImage& image,
                                 const std::filesystem::path& images_folder, std::string* problem) {
   cv::Mat pixels;
   if (image.isExternallyStored()) {
-    const std::filesystem::path file = image.getExternalStorageFile();
+    const auto file = images_folder / image.getExternalStorageFile();  // an absolute path stays
+    std::error_code ignored;
     try {
-      pixels = cv::imread((file.is_absolute() ? file : images_folder / file).string(),
-                          cv::IMREAD_ANYCOLOR);
+      if (std::filesystem::is_regular_file(file, ignored))
+        pixels = cv::imread(file.string(), cv::IMREAD_ANYCOLOR);
     } catch (const cv::Exception&) {
       pixels.release();
     }
@@ -72,6 +75,16 @@ bool Calibration::operator==(const Calibration& other) const {
   return a.width_px == b.width_px && a.height_px == b.height_px && a.fx_px == b.fx_px &&
          a.fy_px == b.fy_px && a.cx_px == b.cx_px && a.cy_px == b.cy_px && lens == other.lens &&
          distortion == other.distortion;
+}
+
+std::filesystem::path imagesFolderOf(const std::filesystem::path& log) {
+  const std::filesystem::path own = logStem(log).string() + "_Images";
+  const auto shared = log.parent_path() / "Images";
+  std::error_code ignored;
+  return !std::filesystem::is_directory(own, ignored) &&
+                 std::filesystem::is_directory(shared, ignored)
+             ? shared
+             : own;
 }
 
 Eigen::Matrix3d opticalAxes() {
@@ -118,7 +131,7 @@ std::optional<DepthView> depthOf(mrpt::obs::CObservation3DRangeScan& scan,
   if (!scan.hasRangeImage) return std::nullopt;
   if (scan.rangeImage_isExternallyStored()) {
     try {
-      mrpt::img::CImage::setImagesPathBase(images_folder.string());
+      mrpt::img::CImage::setImagesPathBase(images_folder.string() + "/");
       scan.load();
     } catch (const std::exception&) {
       *problem = "range file missing or unreadable";

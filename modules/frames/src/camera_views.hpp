@@ -47,6 +47,11 @@ struct DepthView {
   Eigen::Isometry3d T_robot_camera = Eigen::Isometry3d::Identity();  ///< optical frame
 };
 
+/// Where the pictures lie that a log keeps in files of their own: STEM_Images beside it, as
+/// rawlog-edit makes it, else Images. (CRawlog::detectImagesDirectory of MRPT 2.5.8 joins folder
+/// and name without a slash.)
+std::filesystem::path imagesFolderOf(const std::filesystem::path& log);
+
 /// Turns MRPT observations into views. Images stored outside the log are read from
 /// `images_folder`. Nothing comes back when there is no such part; `problem` then says why when the
 /// log promised one.

@@ -7,7 +7,6 @@
 #include <mrpt/obs/CObservationBearingRange.h>
 #include <mrpt/obs/CObservationImage.h>
 #include <mrpt/obs/CObservationOdometry.h>
-#include <mrpt/obs/CRawlog.h>
 #include <mrpt/obs/CSensoryFrame.h>
 
 #include <algorithm>
@@ -43,10 +42,7 @@ RangeBearingScan toScan(const CObservationBearingRange& observation) {
 
 FrameAssembler::FrameAssembler(const std::filesystem::path& log, const SourceOptions& options,
                                Damage& damage)
-    : options_(options),
-      damage_(damage),
-      images_folder_(mrpt::obs::CRawlog::detectImagesDirectory(log.string())),
-      builder_(options) {}
+    : options_(options), damage_(damage), images_folder_(imagesFolderOf(log)), builder_(options) {}
 FrameAssembler::~FrameAssembler() = default;
 
 void FrameAssembler::add(const Entry& entry) {

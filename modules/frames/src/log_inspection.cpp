@@ -7,7 +7,6 @@
 #include <mrpt/obs/CActionRobotMovement3D.h>
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/obs/CObservationImage.h>
-#include <mrpt/obs/CRawlog.h>
 #include <mrpt/obs/CSensoryFrame.h>
 
 #include <algorithm>
@@ -102,7 +101,7 @@ struct Sensor {
 class Inspector {
  public:
   explicit Inspector(const std::filesystem::path& path)
-      : reader_(path), images_folder_(mrpt::obs::CRawlog::detectImagesDirectory(path.string())) {}
+      : reader_(path), images_folder_(imagesFolderOf(path)) {}
 
   LogInspection run(const std::function<void(double share, std::size_t entries)>& progress) {
     while (const auto entry = reader_.next()) {

@@ -33,8 +33,8 @@ struct FloorPrior {
 
 /// Finds the lowest large plane that is roughly horizontal, or nothing. Points of a coarse grid
 /// whose local surface faces up vote by RANSAC (a fixed seed: same image, same answer); planes with
-/// measured points below them lose; the winner is refined by least squares. A further plane below the
-/// winner takes its place (the floor beside a table).
+/// measured points below them lose; the winner is refined by least squares. A further plane below
+/// the winner takes its place (the floor beside a table).
 /// `depth_m`: CV_32FC1, metres, 0 = not measured. About 1 ms for 640x480.
 std::optional<FloorPlane> fitFloorPlane(const cv::Mat& depth_m, const PinholeCamera& camera,
                                         const FloorPrior& prior = {});
