@@ -203,7 +203,8 @@ Detection toDetection(const DepthProfile& profile, const Candidate& candidate,
   const double lateral_m = std::hypot(pixels / profile.focal_px * range_m, candidate.sigma_m,
                                       0.3 * geometry.tilt_sigma * range_m);
   const double axial_m =
-      std::hypot(0.7 * kinectDepthSigma(candidate.p_slice.y()), candidate.sigma_m, 0.01);
+      std::hypot(std::hypot(0.7 * kinectDepthSigma(candidate.p_slice.y()), candidate.sigma_m),
+                 depthBiasSigma(candidate.p_slice.y(), geometry.depth_bias_per_m2), 0.01);
   Detection detection;
   auto& m = detection.measurement;
   m.kind = LandmarkKind::kDepthSlope;

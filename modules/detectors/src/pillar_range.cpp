@@ -190,7 +190,9 @@ PillarRange measurePillarRange(const DepthView& depth, const RefinedLine& line,
       smooth ? 2.0 / (sides[0].inverse_range + sides[1].inverse_range) : nearer.range();
   const double extrapolation = smooth ? 1.0 : 1.5;
   constexpr double kAveraged = 2.0;  // pixels of the strip share most of their error
-  result.sigma_m = std::hypot(extrapolation * noise_m / std::sqrt(kAveraged), lateral_m, 0.015);
+  const double bias_m = depthBiasSigma(result.range_m, geometry.depth_bias_per_m2);
+  result.sigma_m = std::hypot(std::hypot(extrapolation * noise_m / std::sqrt(kAveraged), lateral_m),
+                              bias_m, 0.015);
   const bool usable =
       result.range_m >= geometry.min_depth_m && result.range_m <= geometry.max_depth_m;
   if (usable) result.verdict = PillarRange::Verdict::kMeasured;

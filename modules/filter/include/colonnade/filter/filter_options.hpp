@@ -12,7 +12,7 @@ struct FilterOptions {
   bool invariant = true;
   double gate_probability = 0.99;
   double inverse_depth_linearity = 0.1;
-  double error_correlation_s = 0.5;
+  double error_correlation_s = 1.0;
 
   void visit(OptionVisitor& v) {
     v.flag("invariant", invariant, "right-invariant transport of the covariance; false: plain EKF");
