@@ -271,7 +271,7 @@ std::optional<Innovation> EkfSlam::axisInnovation(LandmarkId axis, double direct
   return innovation;
 }
 
-bool EkfSlam::updateAxis(LandmarkId axis, double direction, double sigma) {
+bool EkfSlam::updateAxis(LandmarkId axis, double direction, double sigma, double noise_scale) {
   const auto expected = axisInnovation(axis, direction, sigma);
   if (!expected || !expected->within_gate) {
     health_.refuse("outside the gate: axis");
@@ -279,8 +279,8 @@ bool EkfSlam::updateAxis(LandmarkId axis, double direction, double sigma) {
   }
   const Block& block = *state_.find(axis);
   const SparseJacobian H = axisJacobian(block, predictAxis(pose(), state_.x(block.offset)));
-  return correct(state_, H, expected->nu, Eigen::MatrixXd::Constant(1, 1, sigma * sigma),
-                 options_.invariant);
+  return correct(state_, H, expected->nu,
+                 Eigen::MatrixXd::Constant(1, 1, noise_scale * sigma * sigma), options_.invariant);
 }
 
 }  // namespace colonnade

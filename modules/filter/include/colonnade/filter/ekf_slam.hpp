@@ -79,8 +79,9 @@ class EkfSlam {
   /// A building axis in the direction (robot's axes) seen now, with its standard deviation.
   LandmarkId addAxis(double direction, double sigma);
   std::optional<Innovation> axisInnovation(LandmarkId axis, double direction, double sigma) const;
-  /// Heading correction by a wall direction held to be of this axis. False: refused.
-  bool updateAxis(LandmarkId axis, double direction, double sigma);
+  /// Heading correction by a wall direction held to be of this axis; noise_scale as in update().
+  /// False: refused.
+  bool updateAxis(LandmarkId axis, double direction, double sigma, double noise_scale = 1.0);
 
   const State& state() const { return state_; }
   Pose2 pose() const { return state_.T_world_robot(); }

@@ -25,7 +25,7 @@ struct AxisOptions {
     v.flag("enabled", enabled, "let walls observe the heading");
     v.number("min_wall_m", min_wall_m, {0.2, 20}, "shortest wall used");
     v.angle("parallel_sigma_deg", parallel_sigma, {0.05, 20},
-            "of a wall from its axis, and what neighbouring frames share");
+            "of a wall from its axis");
     v.angle("merge_deg", merge, {0.5, 40}, "two axes nearer than this are one");
     v.integer("sightings", sightings, {1, 100}, "of a wall direction before it becomes an axis");
   }
@@ -38,8 +38,9 @@ class AxisTracker {
  public:
   explicit AxisTracker(const AxisOptions& options) : options_(options) {}
   /// One frame: corrects the heading by each known axis at most once, longest wall first.
-  void step(const Frame& frame, const std::vector<WallDirection>& walls, EkfSlam& filter,
-            std::vector<Event>& events);
+  /// noise_scale as in EkfSlam::update: a wall keeps its error from frame to frame.
+  void step(const Frame& frame, const std::vector<WallDirection>& walls, double noise_scale,
+            EkfSlam& filter, std::vector<Event>& events);
   const std::vector<LandmarkId>& axes() const { return axes_; }
 
  private:
