@@ -159,12 +159,12 @@ TEST(AxisTracker, WallsHoldTheHeadingAndObliqueOnesFoundTheirOwnAxis) {
   for (int i = 0; i < 200; ++i) {
     filter.predict({0.05, 0.0, 0.0}, kStepNoise);
     wall.direction = wrapQuarterTurn(radians(20.0));
-    tracker.step(frame, {wall}, filter, events);
+    tracker.step(frame, {wall}, 1.0, filter, events);
   }
   ASSERT_EQ(1u, tracker.axes().size());
   EXPECT_LT(std::sqrt(filter.poseCovariance()(2, 2)), radians(2.0));
   wall.direction = wrapQuarterTurn(radians(50.0));
-  for (int i = 0; i < 10; ++i) tracker.step(frame, {wall}, filter, events);
+  for (int i = 0; i < 10; ++i) tracker.step(frame, {wall}, 1.0, filter, events);
   EXPECT_EQ(2u, tracker.axes().size());
 }
 

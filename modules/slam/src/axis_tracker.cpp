@@ -7,8 +7,8 @@
 
 namespace colonnade {
 
-void AxisTracker::step(const Frame& frame, const std::vector<WallDirection>& walls, EkfSlam& filter,
-                       std::vector<Event>& events) {
+void AxisTracker::step(const Frame& frame, const std::vector<WallDirection>& walls,
+                       double noise_scale, EkfSlam& filter, std::vector<Event>& events) {
   if (!options_.enabled) return;
   std::vector<LandmarkId> used;
   for (const WallDirection& wall : walls) {
@@ -18,7 +18,7 @@ void AxisTracker::step(const Frame& frame, const std::vector<WallDirection>& wal
     if (!nearest || nearest->apart > options_.merge) {
       consider(frame, wall, sigma, filter, events);
     } else if (std::find(used.begin(), used.end(), nearest->axis) == used.end() &&
-               filter.updateAxis(nearest->axis, wall.direction, sigma)) {
+               filter.updateAxis(nearest->axis, wall.direction, sigma, noise_scale)) {
       used.push_back(nearest->axis);
     }
   }

@@ -96,11 +96,11 @@ void Session::run(FrameSource& source, const Observer& observer) {
     report.times_ms.detectors = watch.lap();
 
     filter.predict(report.motion.T_previous_robot, report.motion.covariance);
-    axes.step(*frame, detectors.wallDirections(), filter, report.events);
-    report.association = association.match(report.detections, filter, landmarks);
     const double noise_scale =
         correlatedNoiseScale(frame->stamp_s - former_stamp_s, filter.options().error_correlation_s);
     former_stamp_s = frame->stamp_s;
+    axes.step(*frame, detectors.wallDirections(), noise_scale, filter, report.events);
+    report.association = association.match(report.detections, filter, landmarks);
     const auto used = filter.update(report.association.matches, noise_scale);
     book(*frame, report, used, filter, landmarks);
     initializer.step(*frame, report.detections, report.association, filter, landmarks,
