@@ -49,9 +49,9 @@ TEST(Inspection, CountsActionsAndReportsACut) {
   testing::writeLog(
       folder / "a.rawlog", 4,
       {.format = RawlogWriterOptions::Format::kActionSensoryFramePairs, .gz_level = 0});
-  auto bytes = testing::readFile(folder / "a.rawlog");
-  bytes.resize(bytes.size() - 100);
-  testing::writeFile(folder / "cut.rawlog", bytes);
+  const auto bytes = testing::readFile(folder / "a.rawlog");
+  ASSERT_GT(bytes.size(), 100U);
+  testing::writeFile(folder / "cut.rawlog", testing::Bytes(bytes.begin(), bytes.end() - 100));
   const auto log = inspectLog(folder / "cut.rawlog");
   EXPECT_STREQ(log.format(), "pairs");
   EXPECT_EQ(log.action_collections, 4U);
