@@ -115,6 +115,23 @@ TEST(VisualOdometry, BlankFramesCoastWithGrowingNoise) {
   EXPECT_NEAR(again.T_previous_robot.x, 0.05, 0.004);
 }
 
+TEST(VisualOdometry, SurfacesCarryOnInTheDark) {
+  Scene scene = Scene::corridor(true, true);
+  scene.depth_noise = 0.002;
+  auto estimator = makeEstimator();
+  for (std::size_t i = 0; i < 5; ++i) {
+    const double way = 0.05 * static_cast<double>(i);
+    Frame frame = view(scene, i, cameraInWorld(way, 0.0, 1.1, 0.0, radians(15.0)));
+    if (i == 3) frame.gray.setTo(0);
+    if (i == 4) frame.gray.release();
+    const auto motion = estimator.increment(frame);
+    if (i == 0) continue;
+    EXPECT_EQ(motion.source, i < 3 ? MotionSource::kPhotometricIcp : MotionSource::kIcp) << i;
+    EXPECT_NEAR(motion.T_previous_robot.x, 0.05, 0.01) << i;
+    EXPECT_NEAR(motion.T_previous_robot.y, 0.0, 0.005) << i;
+  }
+}
+
 TEST(VisualOdometry, AJumpNoRobotCanMakeIsRefused) {
   const Scene scene = Scene::corridor(true, true);
   auto estimator = makeEstimator();

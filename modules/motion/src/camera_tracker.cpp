@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "colonnade/motion/camera_tracker.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -15,6 +17,7 @@ namespace colonnade {
 namespace {
 
 constexpr int kLevels = 4;
+constexpr int kMinPoints = 50;  ///< of one kind, to rely on it
 constexpr double kLongestCoast_s = 1.0;
 
 Eigen::Isometry3d scaledMotion(const Eigen::Isometry3d& T, double factor) {
@@ -47,6 +50,7 @@ struct CameraTracker::Impl {
   Eigen::Isometry3d T_key_previous = Eigen::Isometry3d::Identity();
   Matrix6 covariance_key_previous = Matrix6::Zero();
   Eigen::Isometry3d velocity = Eigen::Isometry3d::Identity();  ///< motion in velocity_dt_s
+  Matrix6 velocity_covariance = Matrix6::Zero();               ///< of that motion
   double velocity_dt_s = 0.0;
   double coasted_s = 0.0;
   CameraMotion motion;
@@ -58,9 +62,25 @@ struct CameraTracker::Impl {
                options.max_turn_rate * time_s + radians(2.0);
   }
 
+  /// Far from what the former motion lets expect: perhaps a wrong minimum.
+  static bool isSurprising(const Eigen::Isometry3d& T_previous_camera, const MotionPrior& prior) {
+    constexpr double kGate = 22.46;  // chi squared, 6 degrees of freedom, 0.1 %
+    const Vector6 e = logSe3(prior.T_reference_current.inverse() * T_previous_camera);
+    return e.dot(prior.information * e) > kGate;
+  }
+
+  bool seesTheSame(const Alignment& alignment) const {
+    constexpr double kMinAgreement = 0.15;
+    return alignment.photometric_count >= kMinPoints &&
+           alignment.photometric_share >= options.min_share &&
+           alignment.gradient_agreement >= kMinAgreement;
+  }
+
   bool isSound(const Alignment& alignment) const {
-    return alignment.converged && alignment.photometric_share + alignment.surface_share > 0 &&
-           std::max(alignment.photometric_share, alignment.surface_share) >= options.min_share;
+    return alignment.converged &&
+           (seesTheSame(alignment) ||
+            (alignment.photometric_count < kMinPoints && alignment.surface_count >= kMinPoints &&
+             alignment.surface_share >= options.min_share));
   }
 
   Eigen::Isometry3d predicted(double dt_s) const {
@@ -69,8 +89,8 @@ struct CameraTracker::Impl {
   }
 
   MotionSource sourceOf(const Alignment& alignment) const {
-    if (alignment.photometric_count < 50) return MotionSource::kIcp;
-    if (alignment.surface_count < 50) return MotionSource::kPhotometric;
+    if (alignment.photometric_count < kMinPoints) return MotionSource::kIcp;
+    if (alignment.surface_count < kMinPoints) return MotionSource::kPhotometric;
     return MotionSource::kPhotometricIcp;
   }
 
@@ -78,15 +98,6 @@ struct CameraTracker::Impl {
     key = makeReference(previous);
     T_key_previous = Eigen::Isometry3d::Identity();
     covariance_key_previous.setZero();
-  }
-
-  Alignment estimate(const RgbdPyramid& current,
-                     const std::vector<Eigen::Isometry3d>& guesses) const {
-    if (options.engine == "direct") return align(*key, current, guesses, alignment_options);
-    const auto T = openCvOdometry(options.engine, previous, current,
-                                  T_key_previous.inverse() * guesses.front());
-    if (!T) return {};
-    return evaluateAt(*key, current, T_key_previous * *T, alignment_options);
   }
 
   /// What no residual tells: shutter, unsynchronised images, calibration. Grows with the motion.
@@ -101,22 +112,73 @@ struct CameraTracker::Impl {
 
   bool keyIsWornOut(const Alignment& alignment) const {
     const auto& T = alignment.T_reference_current;
+    const double share = alignment.photometric_count == 0
+                             ? alignment.surface_share
+                             : std::min(alignment.photometric_share, alignment.surface_share);
     return T.translation().norm() > options.keyframe_distance_m ||
            Eigen::AngleAxisd(T.linear()).angle() > options.keyframe_angle ||
-           std::min(alignment.photometric_share, alignment.surface_share) < options.keyframe_share;
+           share < options.keyframe_share;
+  }
+
+  /// The former velocity, less sure in each direction by a random change of it. What nothing
+  /// measures errs the same way frame after frame, so there the sigmas add, not the variances.
+  MotionPrior priorOfMotion(double dt_s) const {
+    const double time_s = std::max(dt_s, 0.01);
+    Vector6 change;
+    change << Eigen::Vector3d::Constant(options.coasting_speed_sigma_m_s * time_s),
+        Eigen::Vector3d::Constant(options.coasting_turn_sigma * time_s);
+    const double most =
+        std::max(1.0, 0.5 * options.max_speed_m_s / options.coasting_speed_sigma_m_s);
+    MotionPrior prior;
+    Vector6 inverse_variances = Vector6::Constant(1.0 / (most * most));
+    Matrix6 directions = Matrix6::Identity();
+    if (velocity_dt_s > 0.0) {
+      prior.T_reference_current = predicted(dt_s);
+      const Vector6 scale = (time_s / velocity_dt_s) * change.cwiseInverse();
+      const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(
+          Matrix6(scale.asDiagonal() * velocity_covariance * scale.asDiagonal()));
+      directions = eigen.eigenvectors();
+      for (int i = 0; i < 6; ++i) {
+        const double sigma = std::sqrt(std::max(0.0, eigen.eigenvalues()(i))) + 1.0;
+        inverse_variances(i) = 1.0 / std::pow(std::min(sigma, most), 2);
+      }
+    }
+    const Vector6 inverse_change = change.cwiseInverse();
+    prior.information =
+        inverse_change.asDiagonal() *
+        Matrix6(directions * inverse_variances.asDiagonal() * directions.transpose()) *
+        inverse_change.asDiagonal();
+    return prior;
+  }
+
+  Alignment estimate(const RgbdPyramid& current, const MotionPrior& prior_of_motion) const {
+    const MotionPrior prior{T_key_previous * prior_of_motion.T_reference_current,
+                            prior_of_motion.information};
+    if (options.engine == "direct") {
+      const Alignment both = align(*key, current, prior, {T_key_previous}, alignment_options);
+      if (seesTheSame(both) || !options.use_surfaces) return both;
+      // Bare walls, a dark or overexposed image: surfaces alone.
+      AlignmentOptions surfaces_only = alignment_options;
+      surfaces_only.use_photometric = false;
+      return align(*key, current, prior, {T_key_previous}, surfaces_only);
+    }
+    const auto T_previous_camera =
+        openCvOdometry(options.engine, previous, current, prior_of_motion.T_reference_current);
+    if (!T_previous_camera) return {};
+    return evaluateAt(*key, current, prior, T_key_previous * *T_previous_camera, alignment_options);
   }
 
   /// Aligns to the key frame, or, when that fails, to the former frame made the key frame.
   bool alignTo(const RgbdPyramid& current, double dt_s) {
     if (current.levels.empty() || previous.levels.empty()) return false;
+    const MotionPrior prior = priorOfMotion(dt_s);
     if (!key) makePreviousTheKey();
     for (int attempt = 0; attempt < 2; ++attempt) {
-      const std::vector<Eigen::Isometry3d> guesses = {T_key_previous * predicted(dt_s),
-                                                      T_key_previous};
-      const Alignment alignment = estimate(current, guesses);
+      const Alignment alignment = estimate(current, prior);
       const Eigen::Isometry3d T_previous_camera =
           T_key_previous.inverse() * alignment.T_reference_current;
-      if (isSound(alignment) && isPlausible(T_previous_camera, dt_s)) {
+      const bool worth_a_second_look = attempt == 0 && isSurprising(T_previous_camera, prior);
+      if (isSound(alignment) && isPlausible(T_previous_camera, dt_s) && !worth_a_second_look) {
         const Matrix6 Ad = adjoint(T_previous_camera.inverse());
         motion.T_previous_camera = T_previous_camera;
         motion.covariance = alignment.covariance + Ad * covariance_key_previous * Ad.transpose() +
@@ -135,15 +197,9 @@ struct CameraTracker::Impl {
 
   void coast(double dt_s) {
     coasted_s += dt_s;
-    if (coasted_s > kLongestCoast_s) velocity = Eigen::Isometry3d::Identity();
-    motion.T_previous_camera = predicted(dt_s);
-    const double speed = options.coasting_speed_sigma_m_s * dt_s;
-    const double turn = options.coasting_turn_sigma * dt_s;
-    // The unknown change of velocity lasts: errors of consecutive frames add up, not their squares.
-    const double lasting = dt_s > 0.0 ? std::max(1.0, coasted_s / dt_s) : 1.0;
-    motion.covariance.setZero();
-    motion.covariance.diagonal().head<3>().setConstant(speed * speed * lasting + 1e-6);
-    motion.covariance.diagonal().tail<3>().setConstant(turn * turn * lasting + 1e-6);
+    const MotionPrior prior = priorOfMotion(dt_s);
+    motion.covariance = prior.information.inverse();
+    if (coasted_s < kLongestCoast_s) motion.T_previous_camera = prior.T_reference_current;
     motion.source = MotionSource::kConstantVelocity;
   }
 };
@@ -159,19 +215,21 @@ const CameraMotion& CameraTracker::track(const Frame& frame) {
   if (self.last_index == frame.index) return self.motion;
   const bool is_first = !self.last_index;
   const double dt_s = is_first ? 0.0 : std::max(0.0, frame.stamp_s - self.last_stamp_s);
-  self.last_index = frame.index;
-  self.last_stamp_s = frame.stamp_s;
   self.motion = CameraMotion{};
   RgbdPyramid current = makePyramid(frame, kLevels);
   if (!is_first) {
     if (self.alignTo(current, dt_s)) {
-      self.velocity = self.motion.T_previous_camera;
-      self.velocity_dt_s = dt_s;
       self.coasted_s = 0.0;
     } else {
       self.coast(dt_s);
     }
+    self.velocity = self.motion.T_previous_camera;
+    self.velocity_covariance = self.motion.covariance;
+    self.velocity_dt_s = dt_s;
+    self.motion.previous_index = self.last_index;
   }
+  self.last_index = frame.index;
+  self.last_stamp_s = frame.stamp_s;
   self.previous = std::move(current);
   return self.motion;
 }

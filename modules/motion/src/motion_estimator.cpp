@@ -35,7 +35,7 @@ struct MotionEstimator::Impl {
 
   MotionOptions options;
   std::shared_ptr<CameraTracker> tracker;
-  bool has_previous = false;
+  std::optional<std::size_t> previous_index;
   double previous_stamp_s = 0.0;
   std::optional<OdometryReading> previous_odometry;
   Eigen::Isometry3d T_robot_camera_previous = Eigen::Isometry3d::Identity();
@@ -56,11 +56,11 @@ struct MotionEstimator::Impl {
       increment.T_previous_robot = {factor * previous_increment.x, factor * previous_increment.y,
                                     factor * previous_increment.phi};
     }
-    const double lasting = dt_s > 0.0 ? std::max(1.0, coasted_s / dt_s) : 1.0;
-    const double speed = options.coasting_speed_sigma_m_s * dt_s;
-    const double turn = options.coasting_turn_sigma * dt_s;
-    increment.covariance.diagonal() << speed * speed * lasting + 1e-6,
-        speed * speed * lasting + 1e-6, turn * turn * lasting + 1e-6;
+    // The unknown change of velocity lasts: errors of consecutive frames add up, not their squares.
+    const double lasting = dt_s > 0.0 ? std::clamp(coasted_s / dt_s, 1.0, 3.0) : 1.0;
+    const double step = lasting * options.coasting_speed_sigma_m_s * dt_s + 1e-3;
+    const double turn = lasting * options.coasting_turn_sigma * dt_s + 1e-3;
+    increment.covariance.diagonal() << step * step, step * step, turn * turn;
     return increment;
   }
 
@@ -68,9 +68,9 @@ struct MotionEstimator::Impl {
     if (mayUseOdometry() && previous_odometry && frame.odometry) {
       return odometryIncrement(*previous_odometry, *frame.odometry, options);
     }
-    if (mayUseVisual() && !frame.gray.empty() && !frame.depth_m.empty()) {
+    if (mayUseVisual() && !frame.depth_m.empty()) {
       const CameraMotion& motion = tracker->track(frame);
-      if (motion.source != MotionSource::kNone) {
+      if (motion.previous_index && motion.previous_index == previous_index) {
         return reduceToPlane(motion, T_robot_camera_previous, mounting);
       }
     }
@@ -88,7 +88,7 @@ MotionIncrement MotionEstimator::increment(const Frame& frame,
   Impl& self = *impl_;
   const MountingAtFrame mounting{frame.T_robot_camera, uncertainty.step_covariance};
   MotionIncrement result;
-  if (self.has_previous) {
+  if (self.previous_index) {
     const double dt_s = std::max(0.0, frame.stamp_s - self.previous_stamp_s);
     result = self.measure(frame, mounting, dt_s);
     if (result.source != MotionSource::kConstantVelocity) {
@@ -99,7 +99,7 @@ MotionIncrement MotionEstimator::increment(const Frame& frame,
   } else if (self.mayUseVisual() && !(self.mayUseOdometry() && frame.odometry)) {
     self.tracker->track(frame);
   }
-  self.has_previous = true;
+  self.previous_index = frame.index;
   self.previous_stamp_s = frame.stamp_s;
   self.previous_odometry = frame.odometry;
   self.T_robot_camera_previous = frame.T_robot_camera;

@@ -29,27 +29,36 @@ struct Reference {
 };
 Reference makeReference(RgbdPyramid pyramid);
 
-/// Where the current camera is in the reference, T_reference_current, and how sure that is.
+/// Where the current camera is expected: T_true = T * exp(e), e of this information (inverse
+/// covariance; metres, radians, current camera's axes).
+struct MotionPrior {
+  Eigen::Isometry3d T_reference_current = Eigen::Isometry3d::Identity();
+  Matrix6 information = Matrix6::Zero();
+};
+
+/// Where the current camera is in the reference, and how sure that is.
 struct Alignment {
   Eigen::Isometry3d T_reference_current = Eigen::Isometry3d::Identity();
   /// Of the error e (metres, radians, current camera's axes) in T_true = T * exp(e).
   Matrix6 covariance = Matrix6::Zero();
   double photometric_share = 0.0;  ///< of the reference's points that were compared, 0 to 1
   double surface_share = 0.0;
+  double gradient_agreement = 0.0;  ///< of brightness; see NormalEquations
   int photometric_count = 0;
   int surface_count = 0;
-  double photometric_sigma = 0.0;  ///< brightness levels
-  double surface_sigma = 0.0;      ///< in units of the sensor's noise model
   bool converged = false;
 };
 
-/// Gauss-Newton on brightness (after an affine change) and point-to-plane distance, coarse to fine.
-/// Starts at the guess that fits best at the coarsest level.
-Alignment align(const Reference& reference, const RgbdPyramid& current,
-                const std::vector<Eigen::Isometry3d>& guesses, const AlignmentOptions& options);
+/// Gauss-Newton on brightness (after an affine change), point-to-plane distance and the prior,
+/// coarse to fine. Starts at the prior or at one of the `other_guesses`, whichever fits best at the
+/// coarsest level.
+Alignment align(const Reference& reference, const RgbdPyramid& current, const MotionPrior& prior,
+                const std::vector<Eigen::Isometry3d>& other_guesses,
+                const AlignmentOptions& options);
 
-/// The same figures at a pose that something else found.
+/// Counts and covariance at a pose that something else found.
 Alignment evaluateAt(const Reference& reference, const RgbdPyramid& current,
-                     const Eigen::Isometry3d& T_reference_current, const AlignmentOptions& options);
+                     const MotionPrior& prior, const Eigen::Isometry3d& T_reference_current,
+                     const AlignmentOptions& options);
 
 }  // namespace colonnade

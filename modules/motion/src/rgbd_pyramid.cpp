@@ -11,6 +11,7 @@ namespace colonnade {
 namespace {
 
 constexpr int kFinestWidth_px = 400;
+constexpr int kSmallestHeight_px = 24;
 constexpr float kMinDepth_m = 0.3f;
 constexpr float kMaxDepth_m = 8.0f;
 
@@ -71,7 +72,7 @@ cv::Mat withDerivatives(const cv::Mat& gray) {
 
 bool isContinuous(const cv::Mat& depth_m, int u, int v) {
   const float centre = depth_m.at<float>(v, u);
-  if (centre <= 0.0f) return false;
+  if (!(centre > 0.0f)) return false;
   const float tolerance = 0.04f * centre + 0.02f;
   for (int dv = -1; dv <= 1; ++dv) {
     const float* row = depth_m.ptr<float>(v + dv);
@@ -87,11 +88,9 @@ bool isContinuous(const cv::Mat& depth_m, int u, int v) {
 
 RgbdPyramid makePyramid(const Frame& frame, int levels) {
   RgbdPyramid pyramid;
-  pyramid.hasImage = !frame.gray.empty();
-  pyramid.hasDepth = !frame.depth_m.empty();
-  if (!pyramid.hasImage || !pyramid.hasDepth || !frame.camera.isCalibrated()) return pyramid;
+  if (frame.depth_m.empty() || !frame.camera.isCalibrated()) return pyramid;
   PinholeCamera camera = frame.camera;
-  pyramid.gray = frame.gray;
+  pyramid.gray = frame.gray.empty() ? cv::Mat::zeros(frame.depth_m.size(), CV_8UC1) : frame.gray;
   cv::Mat depth_m = frame.depth_m;
   while (camera.width_px > kFinestWidth_px) {
     camera = halved(camera);
@@ -105,7 +104,7 @@ RgbdPyramid makePyramid(const Frame& frame, int levels) {
   cv::GaussianBlur(gray, gray, {3, 3}, 0.7);
   for (int level = 0; level < levels; ++level) {
     pyramid.levels.push_back({camera, withDerivatives(gray), depth_m});
-    if (level + 1 == levels) break;
+    if (level + 1 == levels || camera.height_px < 2 * kSmallestHeight_px) break;
     camera = halved(camera);
     cv::Mat smaller;
     cv::resize(gray, smaller, {camera.width_px, camera.height_px}, 0, 0, cv::INTER_AREA);
@@ -159,7 +158,7 @@ std::vector<SurfacePoint> selectSurfacePoints(const PyramidLevel& level, int cel
   for (int v = kRadius; v < rows - kRadius; v += cell_px) {
     for (int u = kRadius; u < cols - kRadius; u += cell_px) {
       const float centre = level.depth_m.at<float>(v, u);
-      if (centre <= 0.0f) continue;
+      if (!(centre > 0.0f)) continue;
       Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
       Eigen::Vector3d b = Eigen::Vector3d::Zero();
       double squares = 0.0;
@@ -167,7 +166,7 @@ std::vector<SurfacePoint> selectSurfacePoints(const PyramidLevel& level, int cel
       for (int dv = -kRadius; dv <= kRadius; ++dv) {
         const float* row = level.depth_m.ptr<float>(v + dv);
         for (int du = -kRadius; du <= kRadius; ++du) {
-          if (row[u + du] <= 0.0f) continue;
+          if (!(row[u + du] > 0.0f)) continue;
           const double inverse = 1.0 / static_cast<double>(row[u + du]);
           const double x = du;
           const double y = dv;

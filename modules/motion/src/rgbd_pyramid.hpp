@@ -21,10 +21,9 @@ struct PyramidLevel {
 struct RgbdPyramid {
   std::vector<PyramidLevel> levels;
   cv::Mat gray;  ///< CV_8UC1 at the finest resolution
-  bool hasImage = false;
-  bool hasDepth = false;
 };
 
+/// Without depth or calibration it has no levels; without image it is black.
 RgbdPyramid makePyramid(const Frame& frame, int levels);
 
 /// A pixel of the reference whose brightness is compared: where it is and how it looks.

@@ -35,6 +35,21 @@ inline Eigen::Isometry3d expSe3(const Vector6& twist) {
   return T;
 }
 
+/// The inverse of expSe3 for turns below pi (the same, eq. 173 and 146).
+inline Vector6 logSe3(const Eigen::Isometry3d& T) {
+  const Eigen::AngleAxisd turn(T.linear());
+  const double angle = turn.angle();
+  const Eigen::Vector3d theta = angle * turn.axis();
+  const Eigen::Matrix3d S = skew(theta);
+  const double c = angle < 1e-4 ? 1.0 / 12.0
+                                : (1.0 - 0.5 * angle * std::sin(angle) / (1.0 - std::cos(angle))) /
+                                      (angle * angle);
+  Vector6 twist;
+  twist.head<3>() = (Eigen::Matrix3d::Identity() - 0.5 * S + c * S * S) * T.translation();
+  twist.tail<3>() = theta;
+  return twist;
+}
+
 /// Ad(T): T exp(twist) = exp(Ad(T) twist) T (the same, eq. 175).
 inline Matrix6 adjoint(const Eigen::Isometry3d& T) {
   Matrix6 A = Matrix6::Zero();

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstddef>
 #include <memory>
+#include <optional>
 
 #include "colonnade/frames/frame.hpp"
 #include "colonnade/motion/motion.hpp"
@@ -17,6 +19,7 @@ struct CameraMotion {
   /// Of e (metres, then radians, axes of this frame's camera) in T_true = T * exp(e).
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
   MotionSource source = MotionSource::kNone;
+  std::optional<std::size_t> previous_index;  ///< of the former frame tracked
 };
 
 /// Visual odometry on gray image and depth: direct alignment to a key frame, or the former velocity
