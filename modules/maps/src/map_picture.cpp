@@ -2,15 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "colonnade/maps/map_picture.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <opencv2/imgcodecs.hpp>
 
 #include "canvas.hpp"
-#include "colonnade/base/angle.hpp"
 #include "colonnade/base/atomic_file.hpp"
 #include "colonnade/base/error.hpp"
 #include "colonnade/base/text.hpp"
+#include "ellipse.hpp"
 
 namespace colonnade {
 namespace {
@@ -26,7 +25,6 @@ const cv::Scalar kPath(40, 40, 214);
 const cv::Scalar kTruth(40, 40, 40);
 constexpr int kTop_px = 52;
 constexpr int kBottom_px = 56;
-constexpr double kChi95 = 2.4477;  ///< sqrt of the 95 % point of chi-squared with 2
 
 cv::Scalar colour(LandmarkKind kind) {
   switch (kind) {
@@ -127,18 +125,12 @@ void drawPath(const Trajectory& trajectory, Canvas& canvas) {
 }
 
 void drawEllipse(const LandmarkRecord& landmark, Canvas& canvas) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(landmark.covariance);
-  if (!landmark.covariance.allFinite() || solver.eigenvalues()(0) < 0.0) return;
-  const Eigen::Vector2d axes = kChi95 * solver.eigenvalues().cwiseSqrt();
-  if (axes(1) * canvas.pixelsPerMetre() < 4.0) return;  // the symbol hides it
-  std::vector<Eigen::Vector2d> points_px;
-  for (int i = 0; i <= 48; ++i) {
-    const double t = 2.0 * kPi * i / 48.0;
-    points_px.push_back(canvas.pixelOf(
-        landmark.p_world +
-        solver.eigenvectors() * Eigen::Vector2d(axes(0) * std::cos(t), axes(1) * std::sin(t))));
-  }
-  canvas.path(points_px, 0.8, colour(landmark.kind));
+  std::vector<Eigen::Vector2d> outline = ellipse95(landmark.p_world, landmark.covariance);
+  for (auto& p : outline) p = canvas.pixelOf(p);
+  Eigen::AlignedBox2d box;
+  for (const auto& p_px : outline) box.extend(p_px);
+  if (outline.empty() || box.diagonal().norm() < 10.0) return;  // the symbol hides it
+  canvas.path(outline, 0.8, colour(landmark.kind));
 }
 
 void drawSymbol(LandmarkKind kind, const Eigen::Vector2d& p_px, Canvas& canvas) {

@@ -4,7 +4,6 @@
 
 #include <mrpt/opengl/CBox.h>
 #include <mrpt/opengl/CCylinder.h>
-#include <mrpt/opengl/CEllipsoid2D.h>
 #include <mrpt/opengl/CGridPlaneXY.h>
 #include <mrpt/opengl/CPointCloud.h>
 #include <mrpt/opengl/CSetOfLines.h>
@@ -15,6 +14,8 @@
 #include <cmath>
 #include <string>
 
+#include "ellipse.hpp"
+
 namespace colonnade {
 namespace {
 
@@ -22,7 +23,6 @@ using mrpt::img::TColor;
 using mrpt::img::TColorf;
 
 constexpr float kColumnHeight_m = 2.0F;
-constexpr float kQuantile95 = 2.4477F;  ///< sqrt of the 95 % point of chi-squared with 2
 constexpr double kLift_m = 0.05;  ///< so that nothing hides in the floor: depth buffers are coarse
 
 TColor colour(LandmarkKind kind) {
@@ -67,16 +67,23 @@ void addColumn(const LandmarkRecord& landmark, mrpt::opengl::CSetOfObjects& colu
   column->setLocation(p.x(), p.y(), 0.0);
   column_set.insert(column);
   column_set.insert(label(id, p, kColumnHeight_m + 0.1, kind_colour));
-  if (!landmark.covariance.allFinite() || landmark.covariance.determinant() <= 0.0) return;
-  auto ellipse = mrpt::opengl::CEllipsoid2D::Create();
-  mrpt::math::CMatrixDouble covariance(2, 2);
-  for (int row = 0; row < 2; ++row)
-    for (int cell = 0; cell < 2; ++cell) covariance(row, cell) = landmark.covariance(row, cell);
-  ellipse->setCovMatrix(covariance);
-  ellipse->setQuantiles(kQuantile95);
-  ellipse->setColor_u8(kind_colour);
-  ellipse->setLocation(p.x(), p.y(), kLift_m);
-  column_set.insert(ellipse);
+}
+
+/// Outlines of one kind. MRPT's CEllipsoid2D would do, but its class is misaligned in memory.
+mrpt::opengl::CSetOfLines::Ptr ellipses(const LandmarkMap& landmarks, LandmarkKind kind) {
+  auto lines = mrpt::opengl::CSetOfLines::Create();
+  lines->setName(std::string(name(kind)) + " 95 % ellipses");
+  lines->setColor_u8(colour(kind));
+  for (const auto& landmark : landmarks) {
+    if (landmark.kind != kind || !landmark.p_world.allFinite()) continue;
+    const auto outline = ellipse95(landmark.p_world, landmark.covariance);
+    for (std::size_t i = 1; i < outline.size(); ++i) {
+      const auto& a = outline[i - 1];
+      const auto& b = outline[i];
+      lines->appendLine(a.x(), a.y(), kLift_m, b.x(), b.y(), kLift_m);
+    }
+  }
+  return lines;
 }
 
 /// Flat bars: wide lines are thin ones with most graphics drivers.
@@ -170,6 +177,8 @@ mrpt::opengl::COpenGLScene makeScene(const LandmarkMap& landmarks, const Traject
     if (landmark.kind != LandmarkKind::kFloorEdge && landmark.p_world.allFinite())
       addColumn(landmark, *columns);
   scene.insert(columns);
+  for (const auto kind : {LandmarkKind::kPillarEdge, LandmarkKind::kDepthSlope})
+    scene.insert(ellipses(landmarks, kind));
   scene.insert(floorEdges(landmarks));
   scene.insert(path(trajectory));
   scene.insert(legend(landmarks, {low.x(), high.y()}));
