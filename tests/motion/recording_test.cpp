@@ -128,7 +128,7 @@ Result track(const std::filesystem::path& folder, const std::string& name) {
   return result;
 }
 
-// Measured with one set of options: 0.02 m, 0.005 m and 0.03 m; NEES 1.3, 0.5 and 1.3.
+// Measured with one set of options: 0.02 m, 0.004 m and 0.04 m; NEES 1.4, 0.5 and 1.6.
 
 TEST(Recording, CarriedThroughACorridorWithATurn) {
   COLONNADE_REQUIRE_RECORDING(folder, "corridor_xtion");
