@@ -141,6 +141,8 @@ ExitCode run(const RunArguments& arguments) {
     std::fprintf(stderr, "interrupted after %zu frames\n", recorder.frames());
     return ExitCode::kInterrupted;
   }
+  for (const std::string& note : source.notes())
+    std::fprintf(stderr, "%s: %s\n", arguments.log.c_str(), note.c_str());
   if (!summary.damage.any()) return ExitCode::kDone;
   if (!summary.damage.detail.empty())
     std::fprintf(stderr, "%s: %s\n", arguments.log.c_str(), summary.damage.detail.c_str());

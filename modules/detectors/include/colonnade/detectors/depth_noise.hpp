@@ -14,7 +14,7 @@ constexpr double kinectDepthSigma(double depth_m) {
 
 /// Standard deviation of what calibration leaves in depth: an offset of the disparity, which all
 /// pixels share, shifts depth by its square (Khoshelham and Elberink, Sensors 12(2), 2012, eq. 5).
-/// 0.006 / m stands for a quarter pixel with a focal length of 580 px and a base of 75 mm.
+/// 0.012 / m stands for half a pixel with a focal length of 580 px and a base of 75 mm.
 constexpr double depthBiasSigma(double depth_m, double bias_per_m2) {
   return bias_per_m2 * depth_m * depth_m;
 }

@@ -14,7 +14,7 @@ struct GeometryOptions {
   double line_sigma_px = 1.0;        ///< error of a line that no number of pixels averages out
   double tilt_sigma = radians(0.5);  ///< of the camera's roll and pitch
   double height_sigma_m = 0.02;      ///< of the camera above the floor
-  double depth_bias_per_m2 = 0.006;  ///< systematic depth error, times the squared depth
+  double depth_bias_per_m2 = 0.012;  ///< systematic depth error, times the squared depth
   double min_depth_m = 0.5;
   double max_depth_m = 5.0;
 

@@ -1,3 +1,0 @@
-// SPDX-FileCopyrightText: 2026 The Colonnade authors
-// SPDX-License-Identifier: BSD-3-Clause
-#include <gtest/gtest.h>
