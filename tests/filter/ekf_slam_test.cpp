@@ -6,6 +6,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <limits>
+#include <random>
 
 #include "colonnade/base/angle.hpp"
 #include "colonnade/filter/covariance.hpp"
@@ -186,6 +187,29 @@ TEST(EkfSlam, AnAxisStopsTheHeadingFromDrifting) {
   EXPECT_LT(std::sqrt(with.poseCovariance()(2, 2)), radians(1.5));
   EXPECT_GT(std::sqrt(without.poseCovariance()(2, 2)), radians(5.0));
   EXPECT_NEAR(0.0, wrapAngle(with.pose().phi - 1.6), radians(0.5));
+}
+
+TEST(CorrelatedNoise, TheScaleIsThatOfTheMeanOfAlikeErrors) {
+  EXPECT_EQ(1.0, correlatedNoiseScale(0.0, 1.0));
+  EXPECT_EQ(1.0, correlatedNoiseScale(0.1, 0.0));
+  EXPECT_NEAR(1.0, correlatedNoiseScale(100.0, 1.0), 1e-12);
+  // The variance of the mean of 4000 errors of unit variance, each rho times the former one.
+  const double rho = std::exp(-0.1);
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal;
+  double sum2 = 0.0;
+  const int runs = 400;
+  const int length = 4000;
+  for (int run = 0; run < runs; ++run) {
+    double error = normal(random);
+    double sum = 0.0;
+    for (int i = 0; i < length; ++i) {
+      sum += error;
+      error = rho * error + std::sqrt(1.0 - rho * rho) * normal(random);
+    }
+    sum2 += sum * sum / length;
+  }
+  EXPECT_NEAR(1.0, sum2 / runs / correlatedNoiseScale(0.1, 1.0), 0.2);
 }
 
 TEST(Gate, QuantilesAreTheTabulatedOnes) {
