@@ -144,7 +144,7 @@ TEST(EkfSlam, BearingsFromTwoPlacesMakeALandmarkThatSettles) {
   const auto look = [&] {
     Measurement m;
     m.z.setZero(1);
-    m.R = MeasurementCovariance::Constant(1, 1, radians(0.1) * radians(0.1));
+    m.R = MeasurementCovariance::Constant(1, 1, radians(0.02) * radians(0.02));
     m.z = predictMeasurement(filter.pose(), BlockKind::kPoint, landmark, m).z;
     return m;
   };
