@@ -87,7 +87,7 @@ TEST_F(Faults, AHundredCutsLoseOnlyWhatIsBehindThem) {
     EXPECT_NE(LogEnding::kDamaged, damage.ending) << cut << ": " << damage.detail;
     EXPECT_GE(damage.entries_read, entries_before) << cut;
     EXPECT_LE(damage.ending_offset, cut);
-    if (damage.ending == LogEnding::kCut) EXPECT_FALSE(damage.detail.empty());
+    EXPECT_EQ(damage.ending == LogEnding::kCut, !damage.detail.empty());
     entries_before = damage.entries_read;
   }
   EXPECT_GT(entries_before, 2u);
