@@ -38,5 +38,6 @@ function(colonnade_test name)
   target_compile_definitions(test_${name} PRIVATE
     COLONNADE_SOURCE="${PROJECT_SOURCE_DIR}"
     COLONNADE_PROGRAM="$<TARGET_FILE:colonnade_program>")
+  add_dependencies(test_${name} colonnade_program)
   gtest_discover_tests(test_${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
 endfunction()

@@ -105,6 +105,8 @@ Action addTum(CLI::App& verb) {
     if (arguments->world == "z-up") options.ground_truth_world = GroundTruthWorld::kZUp;
     if (arguments->world == "first-camera")
       options.ground_truth_world = GroundTruthWorld::kFirstCamera;
+    if (std::filesystem::exists(options.log))
+      throw Error(options.log.string() + ": exists; give -o a new name", ExitCode::kUsage);
     Progress progress;
     options.progress = [&progress](std::size_t done, std::size_t all) {
       progress.show(static_cast<double>(done) / static_cast<double>(all), done, "importing");

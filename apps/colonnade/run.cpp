@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <memory>
 #include <opencv2/core/utility.hpp>
+#include <optional>
+#include <utility>
 
 #include "colonnade/base/atomic_file.hpp"
 #include "colonnade/base/config.hpp"
@@ -71,27 +73,83 @@ Trajectory inWorldOf(const TrajectoryScore& score, Trajectory truth) {
   return truth;
 }
 
-[[noreturn]] void refuseEmptyLog(const fs::path& log, const Damage& damage, std::size_t frames) {
-  throw Error(log.string() + ": no camera images or depth in " +
-              std::to_string(damage.entries_read) + " entries" +
-              (frames > 0 ? " (" + std::to_string(frames) + " frames without either)" : "") +
-              (damage.detail.empty() ? "" : "; " + damage.detail) + "; see: colonnade inspect " +
-              log.string());
+/// A log from its first camera frame on: what cannot be mapped at all is refused before a results
+/// folder exists.
+class CameraFrames : public FrameSource {
+ public:
+  CameraFrames(FrameSource& source, const fs::path& log) : source_(source) {
+    std::size_t without = 0;
+    do {
+      first_ = source_.next();
+      without += first_ ? 1 : 0;
+    } while (first_ && first_->gray.empty() && first_->depth_m.empty());
+    if (first_) return;
+    const Damage& damage = source_.damage();
+    throw Error(log.string() + ": no camera images or depth in " +
+                std::to_string(damage.entries_read) + " entries" +
+                (without > 0 ? " (" + std::to_string(without) + " frames without either)" : "") +
+                (damage.detail.empty() ? "" : "; " + damage.detail) + "; see: colonnade inspect " +
+                log.string());
+  }
+  std::optional<Frame> next() override {
+    return first_ ? std::exchange(first_, std::nullopt) : source_.next();
+  }
+  const Damage& damage() const override { return source_.damage(); }
+  double progress() const override { return source_.progress(); }
+
+ private:
+  FrameSource& source_;
+  std::optional<Frame> first_;
+};
+
+/// The score, or why there is none: a wrong truth must not cost the map.
+std::optional<TrajectoryScore> scoreAgainst(const Trajectory& truth, const RunRecorder& recorder,
+                                            std::string& why_not) {
+  if (truth.empty()) return std::nullopt;
+  try {
+    return evaluateTrajectory(recorder.trajectory(), truth, {}, recorder.covariances());
+  } catch (const Error& error) {
+    why_not = error.what();
+    return std::nullopt;
+  }
+}
+
+/// What went wrong or was left out, a line each, and the exit code it amounts to.
+ExitCode conclude(const RunArguments& arguments, const RunSummary& summary,
+                  const std::vector<std::string>& notes, const std::string& not_scored) {
+  const auto say = [&](const std::string& line) {
+    std::fprintf(stderr, "%s: %s\n", arguments.log.c_str(), line.c_str());
+  };
+  for (const std::string& note : notes) say(note);
+  for (const std::string& reason : summary.maps.left_out) say("left out: " + reason);
+  if (!summary.damage.detail.empty()) say(summary.damage.detail);
+  for (const auto& [reason, count] : summary.damage.skipped)
+    say(std::to_string(count) + " skipped: " + reason);
+  if (!not_scored.empty()) say("not scored: " + not_scored);
+  if (summary.interrupted) {
+    say("interrupted after " + std::to_string(summary.frames_processed) + " frames");
+    return ExitCode::kInterrupted;
+  }
+  if (!not_scored.empty()) return ExitCode::kFailed;
+  return summary.damage.any() ? ExitCode::kLossy : ExitCode::kDone;
 }
 
 ExitCode run(const RunArguments& arguments) {
   cv::setNumThreads(1);  // one frame is too little work to share; results never depend on it
   const RunOptions options = readOptions(arguments);
   Trajectory truth;
-  if (!arguments.ground_truth.empty()) truth = readTum(arguments.ground_truth);
-  RawlogSource source(arguments.log, options.source);
+  if (!arguments.ground_truth.empty()) {
+    truth = readTum(arguments.ground_truth);
+    if (truth.empty()) throw Error(arguments.ground_truth.string() + ": holds no pose");
+  }
   Session session(options.session, makeEdgeLineBackend(arguments.backend, options.session.edges));
+  RawlogSource log(arguments.log, options.source);
+  CameraFrames source(log, arguments.log);
 
   const fs::path folder = makeResultsFolder(arguments.output, arguments.log);
   writeFileAtomically(folder / "config.ini", effectiveConfig(options));
   MapRecorder maps(folder, options.maps, options.scans);
   RunRecorder recorder;
-  RunSummary summary;
   Progress progress;
   const InterruptGuard interrupt;
   const auto start = std::chrono::steady_clock::now();
@@ -105,23 +163,19 @@ ExitCode run(const RunArguments& arguments) {
     return !interrupt.requested();
   });
   progress.finish();
+
+  RunSummary summary;
   summary.wall_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  summary.damage = source.damage();
   summary.interrupted = interrupt.requested();
-  if (recorder.framesWithCamera() == 0) {
-    fs::remove(folder / "config.ini");
-    std::error_code not_empty;
-    fs::remove(folder, not_empty);
-    refuseEmptyLog(arguments.log, summary.damage, recorder.frames());
-  }
-
+  summary.damage = source.damage();
+  summary.frames_processed = recorder.frames();
   summary.frames = recorder.frames();
   for (const auto& [reason, count] : summary.damage.skipped) summary.frames += count;
   summary.landmarks = session.map();
   summary.axes = session.axisCount();
-  if (!truth.empty())
-    summary.score = evaluateTrajectory(recorder.trajectory(), truth, {}, recorder.covariances());
+  std::string not_scored;
+  summary.score = scoreAgainst(truth, recorder, not_scored);
 
   recorder.write(folder);
   writeLandmarksCsv(folder / "landmarks.csv", summary.landmarks);
@@ -132,23 +186,10 @@ ExitCode run(const RunArguments& arguments) {
   if (summary.score) contents.ground_truth = inWorldOf(*summary.score, truth);
   summary.maps = maps.finish(contents);
   const auto json = toJson(summary, recorder, session.filter().health());
-  writeFileAtomically(folder / "summary.json", json.dump(2) + "\n");
-
+  writeFileAtomically(folder / "summary.json",
+                      json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
   std::printf("%sresults    %s\n", toText(json).c_str(), folder.c_str());
-  for (const std::string& reason : summary.maps.left_out)
-    std::fprintf(stderr, "left out: %s\n", reason.c_str());
-  if (summary.interrupted) {
-    std::fprintf(stderr, "interrupted after %zu frames\n", recorder.frames());
-    return ExitCode::kInterrupted;
-  }
-  for (const std::string& note : source.notes())
-    std::fprintf(stderr, "%s: %s\n", arguments.log.c_str(), note.c_str());
-  if (!summary.damage.any()) return ExitCode::kDone;
-  if (!summary.damage.detail.empty())
-    std::fprintf(stderr, "%s: %s\n", arguments.log.c_str(), summary.damage.detail.c_str());
-  for (const auto& [reason, count] : summary.damage.skipped)
-    std::fprintf(stderr, "%s: %zu skipped: %s\n", arguments.log.c_str(), count, reason.c_str());
-  return ExitCode::kLossy;
+  return conclude(arguments, summary, log.notes(), not_scored);
 }
 
 }  // namespace
@@ -161,7 +202,8 @@ Action addRun(CLI::App& verb) {
   verb.add_option("-o,--output", arguments->output, "new folder; default: LOG's stem + _results");
   verb.add_option("--backend", arguments->backend, "image stage")->capture_default_str();
   verb.add_option("--ground-truth", arguments->ground_truth, "robot poses, TUM file: adds a score");
-  verb.add_option("--set", arguments->assignments, "Section.key=value, wins over the file");
+  verb.add_option("--set", arguments->assignments, "Section.key=value, wins over the file")
+      ->allow_extra_args(false);
   verb.footer(
       "Examples:\n"
       "  colonnade run rawlogs/corridor.rawlog\n"

@@ -24,7 +24,6 @@ void RunRecorder::add(const Frame& frame, const StepReport& report, const EkfSla
   if (report.motion.source == MotionSource::kConstantVelocity)
     events_.push_back({frame.stamp_s, frame.index, "coasting", std::nullopt, "no motion measured"});
   if (report.motion.source != MotionSource::kNone) ++motion_sources_[name(report.motion.source)];
-  if (!frame.gray.empty() || !frame.depth_m.empty()) ++frames_with_camera_;
 }
 
 void RunRecorder::write(const std::filesystem::path& folder) const {

@@ -14,8 +14,8 @@
 
 namespace colonnade {
 
-/// What a run leaves beside its maps: trajectory, covariances, events and timings. Grows by some
-/// hundred bytes a frame.
+/// What a run leaves beside its maps: trajectory, covariances, events and timings. Grows by a
+/// few kilobytes a frame at most.
 class RunRecorder {
  public:
   void add(const Frame& frame, const StepReport& report, const EkfSlam& filter);
@@ -23,7 +23,6 @@ class RunRecorder {
   void write(const std::filesystem::path& folder) const;
 
   std::size_t frames() const { return trajectory_.size(); }
-  std::size_t framesWithCamera() const { return frames_with_camera_; }
   double duration() const;
   double pathLength() const { return path_length_m_; }
   const Trajectory& trajectory() const { return trajectory_; }
@@ -38,7 +37,6 @@ class RunRecorder {
   std::vector<Event> events_;
   std::vector<StageTimes> times_;
   std::map<std::string, std::size_t> motion_sources_;
-  std::size_t frames_with_camera_ = 0;
   double path_length_m_ = 0.0;
 };
 

@@ -71,7 +71,8 @@ Action addSimulate(CLI::App& verb) {
   verb.add_option_function<std::vector<std::string>>(
       "--set",
       [arguments](const std::vector<std::string>& settings) {
-        arguments->statements.insert(arguments->statements.end(), settings.begin(), settings.end());
+        arguments->statements.insert(arguments->statements.end(), settings.begin(), settings.end())
+            ->allow_extra_args(false);
       },
       "section.key=value over the world file, such as odometry.scale=0");
   verb.add_option("--gz-level", arguments->options.gz_level, "0 plain, 1 fast ... 9 small")

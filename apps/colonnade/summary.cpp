@@ -74,7 +74,7 @@ Json toJson(const RunSummary& summary, const RunRecorder& recorder,
   const auto& times = recorder.times();
   Json json;
   json["frames"] = summary.frames;
-  json["frames_processed"] = recorder.frames();
+  json["frames_processed"] = summary.frames_processed;
   json["interrupted"] = summary.interrupted;
   json["duration_s"] = recorder.duration();
   json["path_length_m"] = recorder.pathLength();

@@ -15,7 +15,8 @@ namespace colonnade {
 /// What summary.json tells of a run. Everything but timing_ms, realtime_factor and peak_rss_mb is
 /// the same for the same log, configuration and program.
 struct RunSummary {
-  std::size_t frames = 0;
+  std::size_t frames = 0;  ///< in the log, refused observations included
+  std::size_t frames_processed = 0;
   LandmarkMap landmarks;
   std::size_t axes = 0;
   std::optional<TrajectoryScore> score;

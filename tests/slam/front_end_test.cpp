@@ -128,6 +128,8 @@ TEST_F(FrontEnd, AnEdgeWithItsDarkSideOnTheOtherHandIsAnotherEdge) {
   Detection other = seen(filter_.pose(), edge, LandmarkKind::kPillarEdge);
   other.appearance.gradient_sign = -1;
   EXPECT_TRUE(associator_.match({other}, filter_, book_).matches.empty());
+  for (int i = 0; i < 6; ++i) step({other});
+  EXPECT_EQ(2u, landmarks());
   EXPECT_EQ(
       1u, associator_.match({seen(filter_.pose(), edge, LandmarkKind::kPillarEdge)}, filter_, book_)
               .matches.size());

@@ -25,7 +25,7 @@ void wrapDirections(State& state) {
 /// al., arXiv 1812.01537, eq. 158). Without it a point that should stay where it is, because turn
 /// and displacement cancel, creeps towards the origin by half the squared turn in every step.
 Eigen::Matrix2d spreadOverTurn(double turn) {
-  // Taylor approximation below 1e-4 rad: the next terms are turn^2 / 6 and turn^3 / 24.
+  // Taylor approximation below 1e-4 rad: the next terms are turn^4 / 120 and turn^3 / 24.
   const bool small = std::abs(turn) < 1e-4;
   const double s = small ? 1.0 - turn * turn / 6.0 : std::sin(turn) / turn;
   const double c = small ? 0.5 * turn : (1.0 - std::cos(turn)) / turn;

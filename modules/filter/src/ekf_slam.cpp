@@ -61,9 +61,12 @@ Eigen::MatrixXd innovationCovariance(const State& state, const Stack& s) {
 
 }  // namespace
 
+/// Frames nearer in time than this say no more together than two this far apart would.
+constexpr double kShortestInterval_s = 0.005;
+
 double correlatedNoiseScale(double interval_s, double correlation_s) {
-  if (interval_s <= 0.0 || correlation_s <= 0.0) return 1.0;
-  const double rho = std::exp(-interval_s / correlation_s);
+  if (correlation_s <= 0.0) return 1.0;
+  const double rho = std::exp(-std::max(interval_s, kShortestInterval_s) / correlation_s);
   return (1.0 + rho) / (1.0 - rho);
 }
 
@@ -196,6 +199,11 @@ std::optional<LandmarkId> EkfSlam::addLandmark(LandmarkId clone, const Measureme
   const auto seen = parallax(clone, first, now);
   if (!seen || seen->inverse_depth <= 0.0) return std::nullopt;
   const TwoViews views = lookTwice(state_, *state_.find(clone), first, now);
+  // In front of the first camera; it must lie in front of the present one too.
+  Measurement bearing = now;
+  bearing.z =
+      predictMeasurement(pose(), BlockKind::kInverseDepth, views.triangulation.block, now).z;
+  if (std::abs(innovationOf(now, bearing.z)(0)) > kPi / 2.0) return std::nullopt;
   const LandmarkId id = nextId();
   augment(state_, {id, BlockKind::kInverseDepth, now.kind, 0, {}}, views.triangulation.block,
           views.J_state, views.bearing_covariance);

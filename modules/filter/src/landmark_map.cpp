@@ -11,6 +11,13 @@
 namespace colonnade {
 namespace {
 
+/// An inverse depth that may as well be zero is a direction yet, no place.
+bool isSettledEnough(const State& state, const Block& block) {
+  if (block.block_kind != BlockKind::kInverseDepth) return true;
+  const double sigma = std::sqrt(std::max(0.0, state.P(block.offset + 3, block.offset + 3)));
+  return state.x(block.offset + 3) > 2.0 * sigma && state.x(block.offset + 3) > 1e-3;
+}
+
 void fillPoint(const State& state, const Block& block, LandmarkRecord& record) {
   const auto P = state.P.block(block.offset, block.offset, block.size(), block.size());
   if (block.block_kind == BlockKind::kPoint) {
@@ -51,7 +58,7 @@ void fillLine(const State& state, const Block& block, LandmarkRecord& record) {
 LandmarkMap EkfSlam::landmarkMap() const {
   LandmarkMap map;
   for (const Block& block : state_.blocks) {
-    if (!block.isLandmark()) continue;
+    if (!block.isLandmark() || !isSettledEnough(state_, block)) continue;
     LandmarkRecord record;
     record.id = block.id;
     record.kind = block.landmark_kind;

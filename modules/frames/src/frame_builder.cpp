@@ -213,14 +213,14 @@ bool FrameBuilder::build(const std::optional<ImageView>& image,
   if (depth) {
     DepthView view = *depth;
     if (!isGiven(view.calibration) && image) view.calibration = colour;
-    if (!s.calibrate(view.calibration, view.units, problem)) return image.has_value();
-    if (image)
-      frame.depth_m = s.seenFromImage(view, *image, colour, frame);
-    else
-      frame.depth_m = s.metres(view, view.calibration, s.depth_lens);
+    const bool calibrated = s.calibrate(view.calibration, view.units, problem);
+    if (!calibrated && !image) return false;
     if (!image) {
+      frame.depth_m = s.metres(view, view.calibration, s.depth_lens);
       frame.camera = view.calibration.pinhole;
       frame.T_robot_camera = view.T_robot_camera;
+    } else if (calibrated) {
+      frame.depth_m = s.seenFromImage(view, *image, colour, frame);
     }
   }
   frame.T_robot_camera = s.mounted(frame.T_robot_camera);

@@ -45,7 +45,9 @@ Association Associator::match(const Detections& detections, const EkfSlam& filte
     const Detection& detection = detections[d];
     if (!detection.accepted()) continue;
     for (const Block& block : filter.state().blocks) {
-      if (!block.isLandmark() || block.landmark_kind != detection.kind()) continue;
+      if (!block.isLandmark() || block.landmark_kind != detection.kind() ||
+          !book.looksLike(block.id, detection))
+        continue;
       if (block.block_kind == BlockKind::kFloorLine &&
           gapAlong(block, filter, detection) > options_.floor_edge_gap_m)
         continue;
@@ -55,8 +57,7 @@ Association Associator::match(const Detections& detections, const EkfSlam& filte
                                             static_cast<int>(innovation->nu.size()));
       if (innovation->distance2 < options_.near_factor * options_.near_factor * gate)
         result.near_landmark[d] = true;
-      if (innovation->within_gate && book.looksLike(block.id, detection))
-        pairings.push_back({d, block.id, innovation->distance2});
+      if (innovation->within_gate) pairings.push_back({d, block.id, innovation->distance2});
     }
   }
   std::stable_sort(pairings.begin(), pairings.end(),

@@ -40,7 +40,10 @@ void Initializer::step(const Frame& frame, const Detections& detections,
   std::vector<bool> known = association.near_landmark;
   for (const std::size_t d : association.detection_of_match) known[d] = true;
   for (Candidate& candidate : candidates_) ++candidate.unseen;
-  for (BearingCandidate& candidate : bearings_) ++candidate.unseen;
+  for (BearingCandidate& candidate : bearings_) {
+    ++candidate.unseen;
+    ++candidate.age;
+  }
 
   std::optional<LandmarkId> clone;  // one for all bearings first seen in this frame
   for (std::size_t d = 0; d < detections.size(); ++d) {
@@ -131,8 +134,10 @@ void Initializer::foundFromBearings(const Frame& frame, EkfSlam& filter, Landmar
 }
 
 void Initializer::dropStale(EkfSlam& filter) {
-  const auto isStale = [&](const auto& c) { return c.unseen > options_.patience_frames; };
-  std::erase_if(candidates_, isStale);
+  std::erase_if(candidates_, [&](const auto& c) { return c.unseen > options_.patience_frames; });
+  const auto isStale = [&](const BearingCandidate& c) {
+    return c.unseen > options_.patience_frames || c.age > options_.bearing_lifetime_frames;
+  };
   std::vector<LandmarkId> released;
   for (const BearingCandidate& candidate : bearings_)
     if (isStale(candidate)) released.push_back(candidate.clone);

@@ -22,7 +22,7 @@ struct Match {
 /// How much more often one has to measure when each error resembles the former one: for errors
 /// whose correlation falls as rho = exp(-interval / correlation), the variance of their mean is (1
 /// + rho) / (1 - rho) times that of independent ones (first-order autoregressive process; Box,
-/// Jenkins, Reinsel, Time Series Analysis, section 3.2). 1 for an interval of 0 or less: unknown.
+/// Jenkins, Reinsel, Time Series Analysis, section 3.2). Intervals under 5 ms count as 5 ms.
 double correlatedNoiseScale(double interval_s, double correlation_s);
 
 /// What the filter expects against what was measured.
@@ -34,8 +34,9 @@ struct Innovation {
 };
 
 /// EKF-SLAM of a planar robot with landmarks of several kinds in one state. Starts at the origin of
-/// the world without uncertainty. Input that is not finite, or a covariance that is not positive
-/// definite, is refused before it touches the state, and counted in health().
+/// the world without uncertainty. Input that is not finite, a motion covariance with a negative
+/// diagonal and an innovation covariance that is not positive definite are refused before they
+/// touch the state, and counted in health().
 class EkfSlam {
  public:
   explicit EkfSlam(const FilterOptions& options) : options_(options) {}

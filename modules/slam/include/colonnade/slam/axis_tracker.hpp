@@ -24,8 +24,7 @@ struct AxisOptions {
   void visit(OptionVisitor& v) {
     v.flag("enabled", enabled, "let walls observe the heading");
     v.number("min_wall_m", min_wall_m, {0.2, 20}, "shortest wall used");
-    v.angle("parallel_sigma_deg", parallel_sigma, {0.05, 20},
-            "of a wall from its axis");
+    v.angle("parallel_sigma_deg", parallel_sigma, {0.05, 20}, "of a wall from its axis");
     v.angle("merge_deg", merge, {0.5, 40}, "two axes nearer than this are one");
     v.integer("sightings", sightings, {1, 100}, "of a wall direction before it becomes an axis");
   }
@@ -49,7 +48,8 @@ class AxisTracker {
     double apart = 0.0;
   };
   std::optional<Nearest> nearestAxis(double direction, double sigma, const EkfSlam& filter) const;
-  void consider(const Frame& frame, const WallDirection& wall, double sigma, EkfSlam& filter,
+  /// Counts a wall of no known axis; true when it founded one.
+  bool consider(const Frame& frame, const WallDirection& wall, double sigma, EkfSlam& filter,
                 std::vector<Event>& events);
 
   AxisOptions options_;

@@ -23,6 +23,7 @@ struct InitializationOptions {
   double min_baseline_m = 0.2;
   double min_parallax = radians(5.0);
   int max_bearing_candidates = 12;
+  int bearing_lifetime_frames = 150;
   int probation_frames = 30;
   int probation_sightings = 8;
 
@@ -36,6 +37,8 @@ struct InitializationOptions {
     v.number("min_baseline_m", min_baseline_m, {0, 5}, "across the first ray");
     v.angle("min_parallax_deg", min_parallax, {0.1, 60}, "between first and present ray");
     v.integer("max_bearing_candidates", max_bearing_candidates, {0, 100}, "followed at a time");
+    v.integer("bearing_lifetime_frames", bearing_lifetime_frames, {2, 10000},
+              "without enough parallax, after which a bearing makes room for another");
     v.integer("probation_frames", probation_frames, {1, 10000},
               "unseen, after which a landmark with too few sightings is purged");
     v.integer("probation_sightings", probation_sightings, {1, 1000},
@@ -69,6 +72,7 @@ class Initializer {
     Pose2 T_world_robot_last;
     int sightings = 1;
     int unseen = 0;
+    int age = 0;  ///< frames
   };
 
   bool stepCandidate(const Detection& detection, const EkfSlam& filter);
