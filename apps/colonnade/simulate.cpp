@@ -68,13 +68,9 @@ Action addSimulate(CLI::App& verb) {
   shorthand("--height", "camera.height_px", "image height, pixels");
   shorthand("--rate", "camera.rate_hz", "frames per second");
   shorthand("--jpeg-quality", "camera.jpeg_quality", "of the colour images, 10 to 100");
-  verb.add_option_function<std::vector<std::string>>(
-      "--set",
-      [arguments](const std::vector<std::string>& settings) {
-        arguments->statements.insert(arguments->statements.end(), settings.begin(), settings.end())
-            ->allow_extra_args(false);
-      },
-      "section.key=value over the world file, such as odometry.scale=0");
+  verb.add_option("--set", arguments->statements,
+                  "section.key=value over the world file, such as odometry.scale=0")
+      ->allow_extra_args(false);
   verb.add_option("--gz-level", arguments->options.gz_level, "0 plain, 1 fast ... 9 small")
       ->check(CLI::Range(0, 9))
       ->capture_default_str();
