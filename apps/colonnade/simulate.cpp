@@ -16,7 +16,8 @@ namespace {
 struct SimulateArguments {
   std::string world;
   std::string log;
-  std::vector<std::string> statements;  ///< --set Section.key=value and its shorthands
+  std::vector<std::string> shorthands;  ///< section.key=value, from --width and the like
+  std::vector<std::string> settings;    ///< --set section.key=value; they win
   bool overwrite = false;
   SimulationOptions options;
 };
@@ -33,7 +34,8 @@ std::string statementOf(const std::string& setting) {
 
 ExitCode simulateVerb(const SimulateArguments& arguments) {
   std::vector<std::string> amendments;
-  for (const auto& setting : arguments.statements) amendments.push_back(statementOf(setting));
+  for (const auto* settings : {&arguments.shorthands, &arguments.settings})
+    for (const auto& setting : *settings) amendments.push_back(statementOf(setting));
   const World world = readWorld(arguments.world, amendments);
   if (!arguments.overwrite && std::filesystem::exists(arguments.log)) {
     throw Error(arguments.log + " exists; choose another name or add --overwrite",
@@ -60,7 +62,7 @@ Action addSimulate(CLI::App& verb) {
     verb.add_option_function<std::string>(
         name,
         [arguments, key](const std::string& value) {
-          arguments->statements.push_back(std::string(key) + "=" + value);
+          arguments->shorthands.push_back(std::string(key) + "=" + value);
         },
         meaning);
   };
@@ -68,7 +70,7 @@ Action addSimulate(CLI::App& verb) {
   shorthand("--height", "camera.height_px", "image height, pixels");
   shorthand("--rate", "camera.rate_hz", "frames per second");
   shorthand("--jpeg-quality", "camera.jpeg_quality", "of the colour images, 10 to 100");
-  verb.add_option("--set", arguments->statements,
+  verb.add_option("--set", arguments->settings,
                   "section.key=value over the world file, such as odometry.scale=0")
       ->allow_extra_args(false);
   verb.add_option("--gz-level", arguments->options.gz_level, "0 plain, 1 fast ... 9 small")
