@@ -4,8 +4,8 @@
 
 #include <mrpt/io/CFileGZInputStream.h>
 #include <mrpt/io/CMemoryStream.h>
-#include <mrpt/io/zip.h>
 #include <mrpt/serialization/CArchive.h>
+#include <zlib.h>
 
 #include <cmath>
 #include <exception>
@@ -29,14 +29,30 @@ std::string serialised(const mrpt::serialization::CSerializable& object) {
   return {static_cast<const char*>(memory.getRawBufferData()), memory.getTotalBytesCount()};
 }
 
+/// gz in memory: MRPT's compress_gz_data_block goes through a temporary file whose name two
+/// programs at once may share, and then yields an empty block.
+std::string gzipped(const std::string& bytes) {
+  z_stream stream{};
+  constexpr int kGzipWindow = 15 + 16;
+  constexpr int kMemoryLevel = 8;
+  if (deflateInit2(&stream, Z_DEFAULT_COMPRESSION, Z_DEFLATED, kGzipWindow, kMemoryLevel,
+                   Z_DEFAULT_STRATEGY) != Z_OK)
+    throw Error("zlib cannot be started");
+  std::string packed(deflateBound(&stream, bytes.size()), '\0');
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
+  stream.avail_in = static_cast<uInt>(bytes.size());
+  stream.next_out = reinterpret_cast<Bytef*>(packed.data());
+  stream.avail_out = static_cast<uInt>(packed.size());
+  const int result = deflate(&stream, Z_FINISH);
+  packed.resize(stream.total_out);
+  deflateEnd(&stream);
+  if (result != Z_STREAM_END) throw Error(std::to_string(bytes.size()) + " bytes do not compress");
+  return packed;
+}
+
 void writeObject(const std::filesystem::path& path,
                  const mrpt::serialization::CSerializable& object) {
-  const std::string bytes = serialised(object);
-  std::vector<unsigned char> packed;
-  if (!mrpt::io::zip::compress_gz_data_block({bytes.begin(), bytes.end()}, packed))
-    throw Error(path.string() + ": " + std::to_string(bytes.size()) +
-                " bytes cannot be compressed");
-  writeFileAtomically(path, {reinterpret_cast<const char*>(packed.data()), packed.size()});
+  writeFileAtomically(path, gzipped(serialised(object)));
 }
 
 mrpt::serialization::CSerializable::Ptr readObject(const std::filesystem::path& path) {
