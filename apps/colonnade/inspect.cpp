@@ -18,20 +18,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-const char* name(LogEnding ending) {
-  switch (ending) {
-    case LogEnding::kNotReached:
-      return "not reached";
-    case LogEnding::kEnd:
-      return "end";
-    case LogEnding::kCut:
-      return "cut";
-    case LogEnding::kDamaged:
-      return "damaged";
-  }
-  return "";
-}
-
 double pitch(const CameraSummary& camera) {
   return -std::asin(std::clamp(camera.T_robot_camera.linear()(2, 2), -1.0, 1.0));
 }

@@ -27,20 +27,6 @@ Json statistics(const std::vector<StageTimes>& times, Stage stage) {
   return {{"median", at(0.5)}, {"p95", at(0.95)}, {"max", at(1.0)}};
 }
 
-const char* name(LogEnding ending) {
-  switch (ending) {
-    case LogEnding::kNotReached:
-      return "not reached";
-    case LogEnding::kEnd:
-      return "end";
-    case LogEnding::kCut:
-      return "cut";
-    case LogEnding::kDamaged:
-      return "damaged";
-  }
-  return "";
-}
-
 /// The most frequent source of motion; the counts stand beside it.
 std::string mainSource(const std::map<std::string, std::size_t>& sources) {
   const auto most = std::max_element(sources.begin(), sources.end(),

@@ -20,6 +20,21 @@ enum class LogEnding {
   kDamaged  ///< bytes that are no object, a wrong checksum, or values no sensor can give
 };
 
+/// The word used in files and reports.
+constexpr const char* name(LogEnding ending) {
+  switch (ending) {
+    case LogEnding::kNotReached:
+      return "not reached";
+    case LogEnding::kEnd:
+      return "end";
+    case LogEnding::kCut:
+      return "cut";
+    case LogEnding::kDamaged:
+      return "damaged";
+  }
+  return "";
+}
+
 /// What was lost on the way. A log with any of it ends in ExitCode::kLossy.
 struct Damage {
   LogEnding ending = LogEnding::kNotReached;
