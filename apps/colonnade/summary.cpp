@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "colonnade/base/text.hpp"
+#include "colonnade/evaluation/consistency.hpp"
 #include "colonnade/evaluation/score_json.hpp"
 
 namespace colonnade {
@@ -47,6 +48,18 @@ Json countLandmarks(const LandmarkMap& landmarks) {
           {"depth_slope", count(LandmarkKind::kDepthSlope)}};
 }
 
+/// The mean per degree of freedom and where 95 % of honest, independent innovations would put it.
+Json nisOf(const InnovationHealth& health, LandmarkKind kind) {
+  const std::size_t dof = health.degreesOfFreedom(kind);
+  Json json = {{"mean", nullptr}, {"count", health.accepted(kind)}, {"dof", dof}};
+  json["band_95"] = nullptr;
+  if (dof == 0) return json;
+  const Band band = consistencyBand(1, dof);
+  json["mean"] = health.meanNis(kind);
+  json["band_95"] = {band.low, band.high};
+  return json;
+}
+
 double peakResidentMegabytes() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
@@ -84,8 +97,10 @@ Json toJson(const RunSummary& summary, const RunRecorder& recorder,
       summary.wall_seconds > 0.0 ? recorder.duration() / summary.wall_seconds : 0.0;
   json["peak_rss_mb"] = peakResidentMegabytes();
   for (const LandmarkKind kind :
-       {LandmarkKind::kPillarEdge, LandmarkKind::kFloorEdge, LandmarkKind::kDepthSlope})
+       {LandmarkKind::kPillarEdge, LandmarkKind::kFloorEdge, LandmarkKind::kDepthSlope}) {
     json["nis_mean"][colonnade::name(kind)] = health.meanNis(kind);
+    json["nis"][colonnade::name(kind)] = nisOf(health, kind);
+  }
   json["refused"] = health.refused();
   json["damage"] = {
       {"ending", name(summary.damage.ending)}, {"entries_read", summary.damage.entries_read},

@@ -21,6 +21,10 @@ class InnovationHealth {
 
   /// Normalised innovation squared per degree of freedom, 1 for an honest filter; 0 without any.
   double meanNis(LandmarkKind kind) const;
+  /// Sum of the degrees of freedom of the accepted measurements: the dof of their summed NIS.
+  std::size_t degreesOfFreedom(LandmarkKind kind) const {
+    return sums_[index(kind)].degrees_of_freedom;
+  }
   std::size_t accepted(LandmarkKind kind) const { return sums_[index(kind)].count; }
   const std::map<std::string, std::size_t>& refused() const { return refused_; }
 
