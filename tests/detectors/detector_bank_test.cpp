@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <set>
 
 #include "colonnade/base/config.hpp"
 #include "colonnade/detectors/draw_detections.hpp"
@@ -35,6 +36,25 @@ TEST(DetectorBank, FindsAllKindsInOneRoom) {
   const cv::Mat picture = drawDetections(frame, edges, all);
   EXPECT_EQ(picture.type(), CV_8UC3);
   EXPECT_GE(picture.rows, frame.gray.rows);
+}
+
+TEST(DetectorBank, LeavesOutTheKindsThatAreSwitchedOff) {
+  const Frame frame = render(room(), kPlace);
+  const auto edges = makeEdgeLineBackend("opencv", {})->extract(frame.gray);
+  const auto kinds = [&](const DetectorOptions& options) {
+    std::set<LandmarkKind> seen;
+    for (const auto& detection : DetectorBank(options).detect(frame, edges))
+      seen.insert(detection.kind());
+    return seen;
+  };
+  using enum LandmarkKind;
+  DetectorOptions options;
+  options.pillars.enabled = false;
+  EXPECT_EQ(kinds(options), (std::set{kFloorEdge, kDepthSlope}));
+  options.floor_edges.enabled = false;
+  EXPECT_EQ(kinds(options), (std::set{kDepthSlope}));
+  options.depth_slopes.enabled = false;
+  EXPECT_TRUE(kinds(options).empty());
 }
 
 TEST(DetectorBank, SurvivesDamagedFrames) {

@@ -29,10 +29,10 @@ Detections DetectorBank::detect(const Frame& frame, const EdgeLines& edges) {
   wall_directions_.clear();
   if (!frame.camera.isCalibrated()) return all;
   const RefinedLines lines = refineLines(frame.gray, edges, options_.lines);
-  append(all, pillars_.detect(frame, lines));
-  append(all, floor_edges_.detect(frame, lines));
+  if (options_.pillars.enabled) append(all, pillars_.detect(frame, lines));
+  if (options_.floor_edges.enabled) append(all, floor_edges_.detect(frame, lines));
   const DepthProfile profile = makeDepthProfile(frame, options_.depth_profile);
-  append(all, depth_slopes_.detect(frame, profile));
+  if (options_.depth_slopes.enabled) append(all, depth_slopes_.detect(frame, profile));
   wall_directions_ = walls_.detect(profile);
   return all;
 }

@@ -11,6 +11,7 @@ namespace colonnade {
 
 struct DepthSlopeOptions {
   static constexpr const char* kSection = "DepthSlopes";
+  bool enabled = true;
   double min_range_m = 1.22;  ///< thesis 2012: where a Kinect can be trusted
   double max_range_m = 3.81;
   double min_slope_change = 1.0;    ///< of dz/dx between the two sides
@@ -24,6 +25,7 @@ struct DepthSlopeOptions {
   bool occlusions = true;           ///< also the near side of jumps in depth
 
   void visit(OptionVisitor& v) {
+    v.flag("enabled", enabled, "look for depth-slope corners");
     v.number("min_range_m", min_range_m, {0.2, 20}, "nearest corner");
     v.number("max_range_m", max_range_m, {0.2, 20}, "farthest corner");
     v.number("min_slope_change", min_slope_change, {0.05, 20}, "of dz/dx between the two sides");

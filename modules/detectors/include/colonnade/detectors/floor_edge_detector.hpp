@@ -11,6 +11,7 @@ namespace colonnade {
 
 struct FloorEdgeOptions {
   static constexpr const char* kSection = "FloorEdges";
+  bool enabled = true;
   double min_length_px = 40.0;
   double min_length_m = 0.4;
   double max_distance_m = 6.0;          ///< of the part used, from the camera
@@ -23,6 +24,7 @@ struct FloorEdgeOptions {
   double max_distance_sigma_m = 0.4;
 
   void visit(OptionVisitor& v) {
+    v.flag("enabled", enabled, "look for floor edges");
     v.number("min_length_px", min_length_px, {10, 2000}, "shortest floor edge in the image");
     v.number("min_length_m", min_length_m, {0.05, 10}, "shortest floor edge on the floor");
     v.number("max_distance_m", max_distance_m, {0.5, 50}, "farthest part used");

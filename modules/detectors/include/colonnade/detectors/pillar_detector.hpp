@@ -11,6 +11,7 @@ namespace colonnade {
 
 struct PillarOptions {
   static constexpr const char* kSection = "Pillars";
+  bool enabled = true;
   double vertical_tolerance = radians(4.0);
   double min_length_px = 50.0;
   double min_length_bearing_only_px = 100.0;
@@ -22,6 +23,7 @@ struct PillarOptions {
   double max_pair_width_px = 100.0;
 
   void visit(OptionVisitor& v) {
+    v.flag("enabled", enabled, "look for pillar edges");
     v.angle("vertical_tolerance_deg", vertical_tolerance, {0.5, 30},
             "from the projected vertical in the image");
     v.number("min_length_px", min_length_px, {10, 2000}, "of an edge with range");
