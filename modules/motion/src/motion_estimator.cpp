@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "fusion.hpp"
 #include "planar_reduction.hpp"
 #include "wheel_odometry.hpp"
 
@@ -17,6 +18,8 @@ const char* name(MotionSource source) {
       return "none";
     case MotionSource::kOdometry:
       return "odometry";
+    case MotionSource::kOdometryVisual:
+      return "odometry_visual";
     case MotionSource::kPhotometric:
       return "photometric";
     case MotionSource::kPhotometricIcp:
@@ -64,17 +67,25 @@ struct MotionEstimator::Impl {
     return increment;
   }
 
+  std::optional<MotionIncrement> byWheels(const Frame& frame) const {
+    if (!mayUseOdometry() || !previous_odometry || !frame.odometry) return std::nullopt;
+    return odometryIncrement(*previous_odometry, *frame.odometry, options);
+  }
+
+  std::optional<MotionIncrement> byCamera(const Frame& frame, const MountingAtFrame& mounting) {
+    if (!mayUseVisual() || frame.depth_m.empty()) return std::nullopt;
+    const CameraMotion& motion = tracker->track(frame);
+    if (!motion.previous_index || motion.previous_index != previous_index) return std::nullopt;
+    return reduceToPlane(motion, T_robot_camera_previous, mounting);
+  }
+
   MotionIncrement measure(const Frame& frame, const MountingAtFrame& mounting, double dt_s) {
-    if (mayUseOdometry() && previous_odometry && frame.odometry) {
-      return odometryIncrement(*previous_odometry, *frame.odometry, options);
-    }
-    if (mayUseVisual() && !frame.depth_m.empty()) {
-      const CameraMotion& motion = tracker->track(frame);
-      if (motion.previous_index && motion.previous_index == previous_index) {
-        return reduceToPlane(motion, T_robot_camera_previous, mounting);
-      }
-    }
-    return coast(dt_s);
+    const auto wheels = byWheels(frame);
+    const auto camera = byCamera(frame, mounting);
+    if (wheels && camera && camera->source != MotionSource::kConstantVelocity)
+      return fuse(*wheels, *camera);
+    if (wheels) return *wheels;
+    return camera ? *camera : coast(dt_s);
   }
 };
 
@@ -96,7 +107,7 @@ MotionIncrement MotionEstimator::increment(const Frame& frame,
       self.previous_increment = result.T_previous_robot;
       self.previous_dt_s = dt_s;
     }
-  } else if (self.mayUseVisual() && !(self.mayUseOdometry() && frame.odometry)) {
+  } else if (self.mayUseVisual() && !frame.depth_m.empty()) {
     self.tracker->track(frame);
   }
   self.previous_index = frame.index;

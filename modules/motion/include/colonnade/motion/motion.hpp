@@ -12,6 +12,7 @@ namespace colonnade {
 enum class MotionSource {
   kNone,
   kOdometry,
+  kOdometryVisual,  ///< both, weighted by their covariances
   kPhotometric,
   kPhotometricIcp,
   kIcp,

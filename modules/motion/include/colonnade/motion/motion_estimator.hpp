@@ -12,9 +12,9 @@
 
 namespace colonnade {
 
-/// The robot's planar motion from frame to frame: wheel odometry where this frame and the former
-/// one have it; else visual odometry reduced to the floor; else the former velocity with wide
-/// noise.
+/// The robot's planar motion from frame to frame: wheel odometry and visual odometry reduced to the
+/// floor, fused by their covariances where this frame and the former one have both; else what there
+/// is of them; else the former velocity with wide noise.
 class MotionEstimator {
  public:
   MotionEstimator(const MotionOptions& options, std::shared_ptr<CameraTracker> tracker);

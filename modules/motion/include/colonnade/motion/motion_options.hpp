@@ -13,7 +13,7 @@ namespace colonnade {
 struct MotionOptions {
   static constexpr const char* kSection = "Motion";
 
-  std::string source = "auto";    ///< auto: odometry where a frame has it, else visual
+  std::string source = "auto";    ///< auto: odometry and visual, whatever a frame has
   std::string mounting = "auto";  ///< auto: per_frame when the first frame has no odometry
 
   /// Wheel odometry whose log states no covariance: a random walk, so that cutting a way into more
@@ -48,7 +48,7 @@ struct MotionOptions {
 
   void visit(OptionVisitor& v) {
     v.choice("source", source, {"auto", "odometry", "visual", "constant_velocity"},
-             "auto: wheel odometry where a frame has it, otherwise visual odometry");
+             "auto: wheel and visual odometry, fused where a frame has both");
     v.choice("mounting", mounting, {"auto", "fixed", "per_frame"},
              "camera tilt and height: from the log, or from the floor in each frame");
     v.number("odometry_along_m", odometry_along, {0, 1}, "sigma along the way after 1 m");

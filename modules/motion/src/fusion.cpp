@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fusion.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+
+#include "colonnade/base/angle.hpp"
+
+namespace colonnade {
+namespace {
+
+constexpr double kUsual = 7.815;     ///< chi squared, 3 degrees of freedom, 5 %
+constexpr double kConflict = 16.27;  ///< 0.1 %
+
+}  // namespace
+
+MotionIncrement fuse(const MotionIncrement& wheels, const MotionIncrement& camera) {
+  const Eigen::Matrix3d S = wheels.covariance + camera.covariance;
+  const Eigen::LLT<Eigen::Matrix3d> llt(S);
+  if (llt.info() != Eigen::Success) return wheels;
+  Eigen::Vector3d difference = camera.T_previous_robot.vector() - wheels.T_previous_robot.vector();
+  difference.z() = wrapAngle(difference.z());
+  const double surprise = difference.dot(llt.solve(difference));
+
+  MotionIncrement fused = wheels;
+  if (!(surprise <= kConflict)) {
+    fused.covariance += difference * difference.transpose();
+    return fused;
+  }
+  const Eigen::Matrix3d K = llt.solve(wheels.covariance).transpose();
+  const Eigen::Vector3d step = K * difference;
+  fused.T_previous_robot.x += step.x();
+  fused.T_previous_robot.y += step.y();
+  fused.T_previous_robot.phi = wrapAngle(fused.T_previous_robot.phi + step.z());
+  const Eigen::Matrix3d A = Eigen::Matrix3d::Identity() - K;
+  fused.covariance = A * wheels.covariance * A.transpose() + K * camera.covariance * K.transpose();
+  fused.covariance *= std::max(1.0, surprise / kUsual);
+  fused.source = MotionSource::kOdometryVisual;
+  return fused;
+}
+
+}  // namespace colonnade

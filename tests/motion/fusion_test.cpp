@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <memory>
+
+#include "colonnade/motion/motion_estimator.hpp"
+#include "synthetic_scene.hpp"
+
+namespace colonnade {
+namespace {
+
+using testing::cameraInWorld;
+using testing::mountingOf;
+using testing::Scene;
+
+/// A camera on wheels that moves by `true_step` in each frame, while the wheels read `read_step`.
+class BothOdometries : public ::testing::Test {
+ protected:
+  MotionIncrement drive(const Pose2& true_step, const Pose2& read_step,
+                        const Eigen::Vector3d& wheel_sigmas, bool lit = true) {
+    MotionEstimator estimator(options_, std::make_shared<CameraTracker>(options_));
+    const Scene scene = Scene::corridor(true, true);
+    MotionIncrement motion;
+    Pose2 T_world_robot;
+    Pose2 T_odom_robot;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto T_world_camera =
+          cameraInWorld(T_world_robot.x, T_world_robot.y, 1.1, T_world_robot.phi, radians(12.0));
+      Frame frame = scene.render(i, 0.1 * static_cast<double>(i), T_world_camera);
+      frame.T_robot_camera = mountingOf(T_world_camera);
+      frame.odometry =
+          OdometryReading{T_odom_robot, Eigen::Matrix3d(wheel_sigmas.cwiseAbs2().asDiagonal())};
+      if (!lit) {
+        frame.gray.setTo(0);
+        frame.depth_m.setTo(0.0f);
+      }
+      motion = estimator.increment(frame);
+      T_world_robot = T_world_robot * true_step;
+      T_odom_robot = T_odom_robot * read_step;
+    }
+    return motion;
+  }
+  MotionOptions options_;
+  const Pose2 step_{0.06, 0.0, radians(1.0)};
+  const Eigen::Vector3d coarse_{0.02, 0.02, radians(2.0)};
+};
+
+TEST_F(BothOdometries, AreSurerTogetherThanEither) {
+  const auto fused = drive(step_, step_, {0.002, 0.002, radians(0.2)});
+  options_.source = "visual";
+  const auto visual = drive(step_, step_, {0.002, 0.002, radians(0.2)});
+  options_.source = "odometry";
+  const auto wheels = drive(step_, step_, {0.002, 0.002, radians(0.2)});
+  EXPECT_EQ(fused.source, MotionSource::kOdometryVisual);
+  EXPECT_EQ(wheels.source, MotionSource::kOdometry);
+  for (int i = 0; i < 3; ++i)
+    EXPECT_LT(fused.covariance(i, i), std::min(visual.covariance(i, i), wheels.covariance(i, i)));
+}
+
+TEST_F(BothOdometries, CoarseWheelsAreCorrectedByTheCamera) {
+  const auto motion = drive(step_, {0.07, 0.01, radians(2.0)}, coarse_);
+  EXPECT_NEAR(motion.T_previous_robot.x, step_.x, 0.004);
+  EXPECT_NEAR(motion.T_previous_robot.y, step_.y, 0.004);
+  EXPECT_NEAR(motion.T_previous_robot.phi, step_.phi, radians(0.2));
+}
+
+TEST_F(BothOdometries, ABlindCameraLeavesTheWheelsAsTheyAre) {
+  const Pose2 read{0.07, 0.01, radians(2.0)};
+  const auto motion = drive(step_, read, coarse_, false);
+  EXPECT_EQ(motion.source, MotionSource::kOdometry);
+  EXPECT_LT((motion.T_previous_robot.vector() - read.vector()).norm(), 1e-12);
+}
+
+TEST_F(BothOdometries, AConflictKeepsTheWheelsAndCoversTheCamera) {
+  // The whole view moves by what no wheel feels: a lorry passes, or the wheels slip.
+  const Pose2 read{0.0, 0.0, 0.0};
+  const auto motion = drive(step_, read, {0.002, 0.002, radians(0.2)});
+  EXPECT_EQ(motion.source, MotionSource::kOdometry);
+  EXPECT_LT(motion.T_previous_robot.vector().norm(), 1e-12);
+  const Eigen::Vector3d error = step_.vector() - motion.T_previous_robot.vector();
+  EXPECT_LT(error.dot(motion.covariance.ldlt().solve(error)), 2.0);
+}
+
+}  // namespace
+}  // namespace colonnade
