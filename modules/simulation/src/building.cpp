@@ -46,6 +46,7 @@ class Builder {
     for (const auto& board : world_.boards) addBoard(board);
     addWallCorners();
     addFloorAndCeiling();
+    for (auto& face : building_.faces) face.surface = world_.materials[face.material].surface;
     return std::move(building_);
   }
 

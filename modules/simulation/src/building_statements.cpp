@@ -6,9 +6,28 @@
 namespace colonnade {
 namespace {
 
+const std::vector<std::pair<std::string, Surface>> kSurfaces = {
+    {"opaque", Surface::kOpaque}, {"glass", Surface::kGlass}, {"mirror", Surface::kMirror}};
+
 const std::vector<std::pair<std::string, Pattern>> kPatterns = {
     {"plaster", Pattern::kPlaster}, {"tiles", Pattern::kTiles}, {"panels", Pattern::kPanels},
     {"papers", Pattern::kPapers},   {"plain", Pattern::kPlain}, {"lamp", Pattern::kLamp}};
+
+/// A key whose value is one of a list of names.
+template <typename T>
+void readNamed(Statement& s, const char* key, T& value,
+               const std::vector<std::pair<std::string, T>>& names) {
+  std::vector<std::string> allowed;
+  std::string chosen;
+  for (const auto& [name, meaning] : names) {
+    allowed.push_back(name);
+    if (meaning == value) chosen = name;
+  }
+  s.choice(key, chosen, allowed, "");
+  for (const auto& [name, meaning] : names) {
+    if (name == chosen) value = meaning;
+  }
+}
 
 std::size_t materialIndex(const World& world, const std::string& name) {
   std::size_t index = 0;
@@ -60,7 +79,13 @@ void addWall(Statement& s, World& world, const Wall& wall) {
 void addBuiltInMaterials(World& world) {
   const auto surface = [&](const char* name, Pattern pattern, Eigen::Vector3d colour,
                            Eigen::Vector3d second, double tile_m) {
-    world.materials.push_back({name, pattern, colour, second, 4.0, 4.0, tile_m});
+    Material material;
+    material.name = name;
+    material.pattern = pattern;
+    material.colour = colour;
+    material.second = second;
+    material.tile_m = tile_m;
+    world.materials.push_back(material);
   };
   surface("plaster", Pattern::kPlaster, {205, 200, 188}, {150, 145, 135}, 0.3);
   surface("skirting", Pattern::kPlain, {92, 84, 78}, {60, 55, 50}, 0.3);
@@ -71,6 +96,10 @@ void addBuiltInMaterials(World& world) {
   surface("tiles", Pattern::kTiles, {150, 148, 140}, {104, 102, 98}, 0.45);
   surface("ceiling", Pattern::kTiles, {214, 214, 210}, {170, 170, 168}, 0.62);
   surface("lamp", Pattern::kLamp, {252, 252, 248}, {214, 214, 210}, 0.3);
+  surface("glass", Pattern::kPlain, {172, 190, 188}, {120, 120, 120}, 0.3);
+  world.materials.back().surface = Surface::kGlass;
+  surface("mirror", Pattern::kPlain, {198, 204, 206}, {120, 120, 120}, 0.3);
+  world.materials.back().surface = Surface::kMirror;
   world.floor_material = materialIndex(world, "tiles");
   world.ceiling_material = materialIndex(world, "ceiling");
 }
@@ -81,16 +110,9 @@ void readMaterial(Statement& s, World& world) {
   const auto index = materialIndex(world, name);
   if (index < world.materials.size()) read = world.materials[index];
   read.name = name;
-  std::vector<std::string> patterns;
-  std::string pattern;
-  for (const auto& [text, value] : kPatterns) {
-    patterns.push_back(text);
-    if (value == read.pattern) pattern = text;
-  }
-  s.choice("pattern", pattern, patterns, "how it is painted");
-  for (const auto& [text, value] : kPatterns) {
-    if (text == pattern) read.pattern = value;
-  }
+  readNamed(s, "pattern", read.pattern, kPatterns);
+  readNamed(s, "surface", read.surface, kSurfaces);
+  s.number("opacity", read.opacity, {0, 1}, "of glass");
   s.triple("colour", read.colour, {0, 255});
   s.triple("second", read.second, {0, 255});
   s.number("grain", read.grain, {0, 100}, "gray levels of fine noise");
@@ -192,6 +214,26 @@ void readLamp(Statement& s, World& world) {
   s.number("brightness", read.brightness, {0, 10}, "");
   s.finish(2);
   world.lamps.push_back(read);
+}
+
+void readWalker(Statement& s, World& world) {
+  Walker read;
+  const std::size_t points = s.wordCount() / 2;
+  for (std::size_t i = 0; i < points; ++i) read.waypoints.push_back(s.point(2 * i, "a waypoint"));
+  s.number("speed_m_per_s", read.speed_m_per_s, {0, 5}, "");
+  s.number("phase_s", read.phase_s, {0, 3600}, "");
+  s.flag("round", read.round, "");
+  s.number("height_m", read.height_m, {0.5, 2.5}, "");
+  s.triple("clothes", read.clothes, {0, 255});
+  s.triple("trousers", read.trousers, {0, 255});
+  s.finish(2 * points);
+  if (points < 2) s.fail("needs two waypoints or more, X1 Y1 X2 Y2 ...");
+  for (std::size_t i = 1; i < points; ++i) {
+    if ((read.waypoints[i] - read.waypoints[i - 1]).norm() < 0.01) {
+      s.fail("two waypoints in the same place; remove one");
+    }
+  }
+  world.walkers.push_back(read);
 }
 
 void readFloor(Statement& s, World& world) {

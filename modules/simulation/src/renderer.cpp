@@ -44,6 +44,7 @@ struct Renderer::Impl {
   int factor;
   std::unique_ptr<mrpt::opengl::CFBORender> target;
   mrpt::opengl::COpenGLScene::Ptr scene;
+  std::vector<Walker> walkers;
   mrpt::img::CImage image;
   mrpt::math::CMatrixFloat depth;
 };
@@ -54,6 +55,7 @@ Renderer::Renderer(const World& world, const Building& building) : impl_(std::ma
   const auto lens = enlarged(impl_->camera, impl_->factor);
   impl_->target = openRenderer(lens.ncols, lens.nrows);
   impl_->scene = buildScene(world, building);
+  impl_->walkers = world.walkers;
   impl_->scene->getViewport()->setViewportClipDistances(kNearM, kFarM);
   auto& eye = impl_->target->getCamera(*impl_->scene);
   eye.setProjectiveFromPinhole(lens);
@@ -62,7 +64,8 @@ Renderer::Renderer(const World& world, const Building& building) : impl_(std::ma
 
 Renderer::~Renderer() = default;
 
-RenderedView Renderer::render(const Eigen::Isometry3d& T_world_camera) {
+RenderedView Renderer::render(const Eigen::Isometry3d& T_world_camera, double time_s) {
+  arrangeScene(*impl_->scene, impl_->walkers, T_world_camera, time_s);
   // CCamera in 6DOF mode is optical: x right, y down, z forward.
   impl_->target->getCamera(*impl_->scene)
       .setPose(mrpt::poses::CPose3D(mrpt::math::CMatrixDouble44(T_world_camera.matrix())));

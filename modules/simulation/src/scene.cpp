@@ -10,6 +10,7 @@
 #include <numeric>
 #include <opencv2/core.hpp>
 
+#include "drawn_walker.hpp"
 #include "painter.hpp"
 
 namespace colonnade {
@@ -54,7 +55,18 @@ std::vector<Slot> packed(const std::vector<cv::Size>& sizes) {
   return slots;
 }
 
-void addFace(mrpt::opengl::CSetOfTexturedTriangles& triangles, const Face& face, const Slot& slot) {
+/// Where in a picture (0 to 1, v downwards) the lower left and upper right corner of a face lie.
+struct TextureArea {
+  float left, bottom, right, top;
+};
+
+TextureArea areaOf(const Slot& slot) {
+  const auto share = [](int pixels) { return static_cast<float>(pixels) / kPagePx; };
+  return {share(slot.area.x), share(slot.area.br().y), share(slot.area.br().x), share(slot.area.y)};
+}
+
+void addFace(mrpt::opengl::CSetOfTexturedTriangles& triangles, const Face& face,
+             const TextureArea& area) {
   const auto corner = [&](double s, double t) {
     mrpt::opengl::TTriangle::Vertex vertex;
     const Eigen::Vector3d p = face.origin + s * face.along + t * face.up;
@@ -63,8 +75,7 @@ void addFace(mrpt::opengl::CSetOfTexturedTriangles& triangles, const Face& face,
     const Eigen::Vector3d n = face.normal();
     vertex.normal = {static_cast<float>(n.x()), static_cast<float>(n.y()),
                      static_cast<float>(n.z())};
-    vertex.uv = {static_cast<float>((slot.area.x + s * slot.area.width) / kPagePx),
-                 static_cast<float>((slot.area.y + (1.0 - t) * slot.area.height) / kPagePx)};
+    vertex.uv = {s > 0.5 ? area.right : area.left, t > 0.5 ? area.top : area.bottom};
     return vertex;
   };
   const std::array corners = {corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)};
@@ -75,11 +86,47 @@ void addFace(mrpt::opengl::CSetOfTexturedTriangles& triangles, const Face& face,
   }
 }
 
+/// The parts of a scene that arrangeScene looks for.
+std::string pageName(std::size_t page) { return "page " + std::to_string(page); }
+const std::string kGlassName = "glass";
+
+/// All panes of glass, tinted by their material and the light on them.
+mrpt::opengl::CSetOfTexturedTriangles::Ptr glassPanes(const World& world,
+                                                      const Building& building) {
+  // One row of a small picture per material.
+  constexpr int kRow = 4;
+  const int rows = kRow * static_cast<int>(world.materials.size());
+  cv::Mat tint(rows, kRow, CV_8UC3), alpha(rows, kRow, CV_8UC1);
+  for (std::size_t i = 0; i < world.materials.size(); ++i) {
+    const auto& material = world.materials[i];
+    const cv::Rect area(0, kRow * static_cast<int>(i), kRow, kRow);
+    tint(area) = cv::Scalar(material.colour.z(), material.colour.y(), material.colour.x());
+    alpha(area) = cv::Scalar(255.0 * material.opacity);
+  }
+  auto panes = mrpt::opengl::CSetOfTexturedTriangles::Create();
+  for (const auto& face : building.faces) {
+    if (face.surface != Surface::kGlass) continue;
+    const float v =
+        (static_cast<float>(face.material) + 0.5F) / static_cast<float>(world.materials.size());
+    addFace(*panes, face, {0.5F, v, 0.5F, v});
+  }
+  panes->assignImage(mrpt::img::CImage(tint, mrpt::img::DEEP_COPY),
+                     mrpt::img::CImage(alpha, mrpt::img::DEEP_COPY));
+  panes->enableLight(false);
+  panes->setName(kGlassName);
+  return panes;
+}
+
 }  // namespace
 
 mrpt::opengl::COpenGLScene::Ptr buildScene(const World& world, const Building& building) {
+  std::vector<const Face*> faces;
   std::vector<cv::Size> sizes;
-  for (const auto& face : building.faces) sizes.push_back(pictureSize(face, world.texels_per_m));
+  for (const auto& face : building.faces) {
+    if (face.surface == Surface::kGlass) continue;
+    faces.push_back(&face);
+    sizes.push_back(pictureSize(face, world.texels_per_m));
+  }
   const auto slots = packed(sizes);
   const Painter painter(world, building);
 
@@ -90,13 +137,13 @@ mrpt::opengl::COpenGLScene::Ptr buildScene(const World& world, const Building& b
       pages.emplace_back(kPagePx, kPagePx, CV_8UC3, cv::Scalar::all(0));
       sets.push_back(mrpt::opengl::CSetOfTexturedTriangles::Create());
     }
-    const auto picture = painter.paint(building.faces[i], static_cast<std::uint32_t>(100 * i),
+    const auto picture = painter.paint(*faces[i], static_cast<std::uint32_t>(100 * i),
                                        sizes[i].width, sizes[i].height);
     const cv::Rect area(slots[i].area.tl() - cv::Point(kMarginPx, kMarginPx),
                         slots[i].area.size() + cv::Size(2 * kMarginPx, 2 * kMarginPx));
     cv::copyMakeBorder(picture, pages[slots[i].page](area), kMarginPx, kMarginPx, kMarginPx,
                        kMarginPx, cv::BORDER_REPLICATE);
-    addFace(*sets[slots[i].page], building.faces[i], slots[i]);
+    addFace(*sets[slots[i].page], *faces[i], areaOf(slots[i]));
   }
 
   auto scene = mrpt::opengl::COpenGLScene::Create();
@@ -104,9 +151,31 @@ mrpt::opengl::COpenGLScene::Ptr buildScene(const World& world, const Building& b
     sets[page]->assignImage(mrpt::img::CImage(pages[page], mrpt::img::DEEP_COPY));
     sets[page]->enableTextureLinearInterpolation(true);
     sets[page]->enableLight(false);
+    sets[page]->setName(pageName(page));
     scene->insert(sets[page]);
   }
+  if (faces.size() < building.faces.size()) scene->insert(glassPanes(world, building));
+  for (std::size_t i = 0; i < world.walkers.size(); ++i) {
+    for (const auto& part : drawnWalker(world.walkers[i], i)) scene->insert(part);
+  }
   return scene;
+}
+
+void arrangeScene(mrpt::opengl::COpenGLScene& scene, const std::vector<Walker>& walkers,
+                  const Eigen::Isometry3d& T_world_camera, double time_s) {
+  // MRPT draws what has the more distant representative point first.
+  const auto represent = [&](mrpt::opengl::CRenderizable& object, double distance_m) {
+    const Eigen::Vector3f p =
+        (T_world_camera * Eigen::Vector3d(0.0, 0.0, distance_m)).cast<float>();
+    object.setLocalRepresentativePoint({p.x(), p.y(), p.z()});
+  };
+  if (const auto glass = scene.getByName(kGlassName)) {
+    represent(*glass, 1.0);
+    for (std::size_t page = 0; const auto set = scene.getByName(pageName(page)); ++page) {
+      represent(*set, 10.0);
+    }
+  }
+  for (std::size_t i = 0; i < walkers.size(); ++i) moveWalker(scene, walkers[i], i, time_s);
 }
 
 }  // namespace colonnade

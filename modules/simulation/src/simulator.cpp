@@ -57,7 +57,7 @@ SimulationSummary simulate(const World& world, const std::filesystem::path& log,
     const double stamp_s =
         kFirstStampS + static_cast<double>(summary.frames) / world.camera.rate_hz;
     const Eigen::Isometry3d T_world_camera = pose.toIsometry3() * world.camera.T_robot_camera();
-    const RenderedView view = renderer.render(T_world_camera);
+    const RenderedView view = renderer.render(T_world_camera, stamp_s - kFirstStampS);
     const auto motion = odometry.measure(previous.inverse() * pose);
 
     FrameRecord record;

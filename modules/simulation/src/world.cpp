@@ -16,11 +16,11 @@ namespace {
 const std::map<std::string, void (*)(Statement&, World&)> kStatements = {
     {"material", readMaterial}, {"wall", readWall},         {"room", readRoom},
     {"door", readDoor},         {"pilaster", readPilaster}, {"pillar", readPillar},
-    {"board", readBoard},       {"lamp", readLamp},         {"floor", readFloor},
-    {"ceiling", readCeiling},   {"texture", readTexture},   {"start", readStart},
-    {"drive", readDrive},       {"turn", readTurn},         {"wait", readWait},
-    {"camera", readCamera},     {"depth", readDepth},       {"colour", readColour},
-    {"odometry", readOdometry}};
+    {"board", readBoard},       {"lamp", readLamp},         {"walker", readWalker},
+    {"floor", readFloor},       {"ceiling", readCeiling},   {"texture", readTexture},
+    {"start", readStart},       {"drive", readDrive},       {"turn", readTurn},
+    {"wait", readWait},         {"camera", readCamera},     {"depth", readDepth},
+    {"colour", readColour},     {"odometry", readOdometry}};
 
 /// Turns lines into a world.
 class WorldReader {

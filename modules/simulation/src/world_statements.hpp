@@ -19,6 +19,7 @@ void readPilaster(Statement& s, World& world);
 void readPillar(Statement& s, World& world);
 void readBoard(Statement& s, World& world);
 void readLamp(Statement& s, World& world);
+void readWalker(Statement& s, World& world);
 void readFloor(Statement& s, World& world);
 void readCeiling(Statement& s, World& world);
 void readTexture(Statement& s, World& world);

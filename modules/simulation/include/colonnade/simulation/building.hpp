@@ -20,6 +20,7 @@ struct Face {
   double skirting_m = 0.0;  ///< height of the painted strip at its foot
   std::size_t skirting_material = 0;
   bool glows = false;  ///< a lamp: not lit by others
+  Surface surface = Surface::kOpaque;
 
   Eigen::Vector3d normal() const { return along.cross(up).normalized(); }
 };

@@ -24,7 +24,8 @@ class Renderer {
   Renderer(const World& world, const Building& building);
   ~Renderer();
 
-  RenderedView render(const Eigen::Isometry3d& T_world_camera);
+  /// `time_s` after the start of the route: people walk.
+  RenderedView render(const Eigen::Isometry3d& T_world_camera, double time_s = 0.0);
 
  private:
   struct Impl;

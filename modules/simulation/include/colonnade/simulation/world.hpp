@@ -16,6 +16,10 @@ namespace colonnade {
 /// How a surface is painted.
 enum class Pattern { kPlaster, kTiles, kPanels, kPapers, kPlain, kLamp };
 
+/// What light and the pattern of a depth sensor do at a surface. Glass is drawn see-through and,
+/// like a mirror, gives no depth.
+enum class Surface { kOpaque, kGlass, kMirror };
+
 struct Material {
   std::string name;
   Pattern pattern = Pattern::kPlaster;
@@ -24,6 +28,8 @@ struct Material {
   double grain = 4.0;                        ///< gray levels of fine noise
   double blotches = 4.0;                     ///< gray levels of coarse noise
   double tile_m = 0.30;
+  Surface surface = Surface::kOpaque;
+  double opacity = 0.3;  ///< of glass: 0 nothing to see, 1 nothing to see behind
 };
 
 /// A straight wall from a to b. Free space lies on its left. Metres.
@@ -83,6 +89,22 @@ struct Board {
   std::size_t material = 0;
 };
 
+/// A person who walks along waypoints: from the last straight back to the first (`round`), else
+/// there and back. Passes through walls; opaque, and not part of the map.
+struct Walker {
+  std::vector<Eigen::Vector2d> waypoints;  ///< two or more
+  double speed_m_per_s = 1.2;
+  double phase_s = 0.0;  ///< has been walking for so long when the robot starts
+  bool round = false;
+  double height_m = 1.75;
+  Eigen::Vector3d clothes = {96, 70, 74};  ///< red, green, blue, 0 to 255
+  Eigen::Vector3d trousers = {52, 56, 70};
+
+  double distanceAt(double time_s) const { return speed_m_per_s * (time_s + phase_s); }
+  /// T_world_walker: x is forward, the origin on the floor. Time since the robot's start.
+  Pose2 poseAt(double time_s) const;
+};
+
 struct Lamp {
   Eigen::Vector2d centre = Eigen::Vector2d::Zero();
   Eigen::Vector2d size = {1.2, 0.3};
@@ -115,6 +137,7 @@ struct World {
   std::vector<Pillar> pillars;
   std::vector<Board> boards;
   std::vector<Lamp> lamps;
+  std::vector<Walker> walkers;
   std::size_t floor_material = 0;
   std::size_t ceiling_material = 0;
   double texels_per_m = 200.0;
