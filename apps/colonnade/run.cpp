@@ -9,14 +9,11 @@
 #include <utility>
 
 #include "colonnade/base/atomic_file.hpp"
-#include "colonnade/base/config.hpp"
-#include "colonnade/frames/rawlog_source.hpp"
 #include "colonnade/maps/landmark_csv.hpp"
-#include "colonnade/maps/map_recorder.hpp"
-#include "colonnade/slam/session.hpp"
 #include "interrupt.hpp"
 #include "progress.hpp"
 #include "results_folder.hpp"
+#include "run_options.hpp"
 #include "run_recorder.hpp"
 #include "summary.hpp"
 #include "verbs.hpp"
@@ -34,37 +31,6 @@ struct RunArguments {
   fs::path ground_truth;
   std::vector<std::string> assignments;
 };
-
-/// Every section of the configuration file.
-struct RunOptions {
-  SourceOptions source;
-  SessionOptions session;
-  ScanOptions scans;
-  MapOptions maps;
-
-  template <class Take>
-  void each(Take&& take) {
-    take(source);
-    session.each(take);
-    take(scans);
-    take(maps);
-  }
-};
-
-RunOptions readOptions(const RunArguments& arguments) {
-  Config config = arguments.config.empty() ? Config() : Config::fromFile(arguments.config);
-  for (const std::string& assignment : arguments.assignments) config.set(assignment);
-  RunOptions options;
-  options.each([&](auto& section) { config.read(section); });
-  config.requireAllKnown();
-  return options;
-}
-
-std::string effectiveConfig(RunOptions options) {
-  ConfigWriter writer;
-  options.each([&](const auto& section) { writer.add(section); });
-  return writer.text();
-}
 
 /// Truth in the world of the estimate, for the picture.
 Trajectory inWorldOf(const TrajectoryScore& score, Trajectory truth) {
@@ -136,7 +102,7 @@ ExitCode conclude(const RunArguments& arguments, const RunSummary& summary,
 
 ExitCode run(const RunArguments& arguments) {
   cv::setNumThreads(1);  // one frame is too little work to share; results never depend on it
-  const RunOptions options = readOptions(arguments);
+  const RunOptions options = readRunOptions(arguments.config, arguments.assignments);
   Trajectory truth;
   if (!arguments.ground_truth.empty()) {
     truth = readTum(arguments.ground_truth);
