@@ -20,6 +20,8 @@ constexpr Verb kVerbs[] = {
     {"import", "Other formats to rawlog", colonnade::addImport},
     {"simulate", "A world to a rawlog with ground truth", colonnade::addSimulate},
     {"run", "The main job: a rawlog to a landmark map and a trajectory", colonnade::addRun},
+    {"detect", "What the detectors see, frame by frame: overlays and a table",
+     colonnade::addDetect},
     {"evaluate", "A trajectory against ground truth", colonnade::addEvaluate},
 };
 

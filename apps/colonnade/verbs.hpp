@@ -14,6 +14,7 @@ namespace colonnade {
 using Action = std::function<ExitCode()>;
 
 Action addRun(CLI::App& verb);
+Action addDetect(CLI::App& verb);
 Action addInspect(CLI::App& verb);
 Action addImport(CLI::App& verb);
 Action addSimulate(CLI::App& verb);

@@ -22,12 +22,25 @@ class Run : public testing::ProgramTest {
   }
 };
 
+TEST_F(Run, WheelsAndCameraTogetherAreBetterThanWheelsAlone) {
+  const std::string arguments =
+      "run " + corridor().string() + " --ground-truth " + truthOf(corridor()) + " -o ";
+  ASSERT_EQ(0, colonnade(arguments + "both").exit_code);
+  ASSERT_EQ(0, colonnade(arguments + "wheels --set Motion.source=odometry").exit_code);
+  const auto both = summary("both");
+  EXPECT_EQ("odometry_visual", both["motion_source"]);
+  EXPECT_LT(both["trajectory"]["ate_rmse_m"].get<double>(), 0.03);
+  EXPECT_LT(both["trajectory"]["ate_rmse_m"].get<double>(),
+            0.7 * summary("wheels")["trajectory"]["ate_rmse_m"].get<double>());
+}
+
 TEST_F(Run, MapsTheCorridorAtAThirdOfDeadReckoningsError) {
   const std::string log = corridor().string();
   const std::string truth = " --ground-truth " + truthOf(corridor());
-  ASSERT_EQ(0, colonnade("run " + log + " -o slam" + truth).exit_code);
+  const std::string wheels = " --set Motion.source=odometry";
+  ASSERT_EQ(0, colonnade("run " + log + " -o slam" + truth + wheels).exit_code);
   // No landmark ever reaches the map and no wall the heading: what is left is dead reckoning.
-  ASSERT_EQ(0, colonnade("run " + log + " -o reckoning" + truth +
+  ASSERT_EQ(0, colonnade("run " + log + " -o reckoning" + truth + wheels +
                          " --set Axes.enabled=false --set Initialization.sightings=100"
                          " --set Initialization.max_bearing_candidates=0 --set "
                          "FloorEdges.max_distance_sigma_m=0.01")

@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <opencv2/imgcodecs.hpp>
+#include <set>
+
+#include "colonnade/base/text.hpp"
+#include "program.hpp"
+
+namespace colonnade {
+namespace {
+
+using testing::contentOf;
+
+class Detect : public testing::ProgramTest {
+ protected:
+  static std::vector<std::vector<std::string>> table(const std::filesystem::path& path) {
+    std::vector<std::vector<std::string>> rows;
+    std::istringstream lines(contentOf(path));
+    for (std::string line; std::getline(lines, line);) rows.push_back(fields(line, ','));
+    return rows;
+  }
+  const std::string camera_ =
+      " --set Camera.fx_px=525 --set Camera.fy_px=525 --set Camera.cx_px=319.5"
+      " --set Camera.cy_px=239.5 --set Camera.height_m=1.1 --set Camera.tilt=given";
+};
+
+TEST_F(Detect, WritesATableOfEveryFrameAndPicturesOfSome) {
+  ASSERT_EQ(0,
+            colonnade("detect " + corridor().string() + " -o seen --picture-every 100").exit_code);
+  const auto rows = table(folder_ / "seen/detections.csv");
+  ASSERT_GT(rows.size(), 500U);
+  std::set<std::string> frames, kinds;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    ASSERT_EQ(rows[0].size(), rows[i].size()) << "row " << i;
+    frames.insert(rows[i][1]);
+    kinds.insert(rows[i][3]);
+  }
+  const auto told = nlohmann::json::parse(contentOf(folder_ / "seen/detect.json"));
+  EXPECT_EQ(told["frames"].get<std::size_t>(), frames.size());
+  EXPECT_EQ((std::set<std::string>{"depth_slope", "floor_edge", "pillar"}), kinds);
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "seen/frame_00100.jpg"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "seen/frame_00101.jpg"));
+}
+
+TEST_F(Detect, TakesOnePictureWhoseCameraIsDescribed) {
+  cv::Mat picture(480, 640, CV_8UC1, cv::Scalar(90));
+  picture(cv::Rect(300, 0, 60, 400)).setTo(200);
+  cv::imwrite((folder_ / "pillar.png").string(), picture);
+  ASSERT_EQ(0, colonnade("detect pillar.png -o seen" + camera_).exit_code);
+  int edges = 0;
+  for (const auto& row : table(folder_ / "seen/detections.csv"))
+    if (row[3] == "pillar" && row[4].empty()) {
+      ++edges;
+      EXPECT_LT(std::min(std::abs(std::stod(row[5]) - 299.5), std::abs(std::stod(row[5]) - 359.5)),
+                0.6);
+    }
+  EXPECT_EQ(2, edges);
+}
+
+TEST_F(Detect, SaysWhatAPictureLacks) {
+  cv::imwrite((folder_ / "plain.png").string(), cv::Mat(480, 640, CV_8UC1, cv::Scalar(90)));
+  const auto outcome = colonnade("detect plain.png -o seen");
+  EXPECT_EQ(2, outcome.exit_code);
+  EXPECT_NE(std::string::npos, outcome.err.find("height_m"));
+  EXPECT_EQ(1, outcome.errorLines());
+  std::ofstream(folder_ / "broken.png") << "no picture";
+  EXPECT_EQ(1, colonnade("detect broken.png -o seen" + camera_).exit_code);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "seen"));
+}
+
+}  // namespace
+}  // namespace colonnade
