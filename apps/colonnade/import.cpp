@@ -6,8 +6,11 @@
 #include <memory>
 
 #include "colonnade/base/angle.hpp"
+#include "colonnade/base/log_path.hpp"
 #include "colonnade/base/text.hpp"
+#include "colonnade/frames/mrclam_import.hpp"
 #include "colonnade/frames/tum_import.hpp"
+#include "colonnade/maps/landmark_csv.hpp"
 #include "progress.hpp"
 #include "verbs.hpp"
 
@@ -118,12 +121,98 @@ Action addTum(CLI::App& verb) {
   };
 }
 
+struct MrclamArguments {
+  MrclamImportOptions options;
+  double bearing_sigma_deg = degrees(MrclamImportOptions{}.bearing_sigma);
+};
+
+LandmarkMap truthOf(const MrclamImportResult& result) {
+  LandmarkMap map;
+  for (const MrclamLandmark& landmark : result.landmarks) {
+    LandmarkRecord record;
+    record.id = LandmarkId{landmark.subject};
+    record.p_world = record.extent_a = record.extent_b = landmark.p_world;
+    record.covariance.diagonal() = landmark.sigma.cwiseAbs2();
+    map.push_back(record);
+  }
+  std::sort(map.begin(), map.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
+  return map;
+}
+
+void report(const MrclamImportResult& result, const MrclamImportOptions& options,
+            const std::string& landmark_file) {
+  const auto& noise = options.odometry;
+  std::size_t of_robots = 0;
+  for (const auto& [subject, count] : result.robot_readings) of_robots += count;
+  std::cout << options.log.string() << ": " << result.frames
+            << " action and sensory-frame pairs, one for each measurement stamp, "
+            << result.readings << " readings of landmarks, way by odometry "
+            << formatFixed(result.path_m, 1) << " m\n"
+            << "sigmas     range " << formatDouble(options.range_sigma_m) << " m, bearing "
+            << formatDouble(degrees(options.bearing_sigma), 6) << " deg; odometry along "
+            << formatDouble(noise.along_m) << " m and across " << formatDouble(noise.across_m)
+            << " m after 1 m, heading " << formatDouble(degrees(noise.heading), 6)
+            << " deg after 1 m and " << formatDouble(degrees(noise.turn), 6) << " deg after 1 rad\n"
+            << "dropped    " << of_robots << " readings of moving robots (subjects 1 to 5";
+  for (const auto& [subject, count] : result.robot_readings)
+    std::cout << ", " << subject << ": " << count;
+  std::cout << ")\n";
+  for (const auto& [barcode, count] : result.unknown_barcodes)
+    std::cout << "dropped    " << count << " readings of barcode " << barcode
+              << ", which Barcodes.dat does not know\n";
+  if (result.bad_ranges > 0)
+    std::cout << "dropped    " << result.bad_ranges << " readings whose range is not positive\n";
+  std::cout << result.ground_truth.string() << ": " << result.ground_truth_poses << " poses\n"
+            << landmark_file << ": " << result.landmarks.size() << " landmarks\n";
+}
+
+Action addMrclam(CLI::App& verb) {
+  auto arguments = std::make_shared<MrclamArguments>();
+  auto& options = arguments->options;
+  verb.add_option("DIR", options.folder,
+                  "folder with Barcodes.dat, Landmark_Groundtruth.dat, RobotN_*.dat")
+      ->required();
+  verb.add_option("--robot", options.robot, "whose log")->required()->check(CLI::Range(1, 5));
+  verb.add_option("-o,--output", options.log, "the rawlog to write")->required();
+  verb.add_option("--range-sigma", options.range_sigma_m, "metres, written into the observations")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  verb.add_option("--bearing-sigma-deg", arguments->bearing_sigma_deg,
+                  "degrees, written into the observations")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  verb.footer(
+      "Examples:\n"
+      "  colonnade import mrclam MRCLAM_Dataset7 --robot 3 -o robot3.rawlog\n"
+      "  colonnade run robot3.rawlog --ground-truth robot3_ground_truth.tum");
+  return [arguments] {
+    auto& chosen = arguments->options;
+    chosen.bearing_sigma = radians(arguments->bearing_sigma_deg);
+    if (std::filesystem::exists(chosen.log))
+      throw Error(chosen.log.string() + ": exists; give -o a new name", ExitCode::kUsage);
+    Progress progress;
+    chosen.progress = [&progress](std::size_t done, std::size_t all) {
+      progress.show(static_cast<double>(done) / static_cast<double>(all), done, "importing");
+    };
+    const auto result = importMrclam(chosen);
+    progress.finish();
+    const std::string landmark_file = logStem(chosen.log).string() + "_landmarks.csv";
+    writeLandmarksCsv(landmark_file, truthOf(result));
+    report(result, chosen, landmark_file);
+    return ExitCode::kDone;
+  };
+}
+
 }  // namespace
 
 Action addImport(CLI::App& verb) {
   verb.require_subcommand(1);
   auto* const tum = verb.add_subcommand("tum", "folder of the TUM RGB-D benchmark to rawlog");
-  return addTum(*tum);
+  auto* const mrclam =
+      verb.add_subcommand("mrclam", "one robot of a UTIAS MRCLAM folder to a range-bearing rawlog");
+  return [mrclam, import_tum = addTum(*tum), import_mrclam = addMrclam(*mrclam)] {
+    return mrclam->parsed() ? import_mrclam() : import_tum();
+  };
 }
 
 }  // namespace colonnade

@@ -1,0 +1,154 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "colonnade/frames/mrclam_import.hpp"
+
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "colonnade/base/error.hpp"
+#include "colonnade/base/trajectory.hpp"
+#include "colonnade/frames/rawlog_source.hpp"
+#include "shared_data.hpp"
+
+namespace colonnade {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+/// A small data set of its own in a folder that disappears with the test.
+class MrclamImport : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (fs::temp_directory_path() / "mrclam-XXXXXX").string();
+    ASSERT_NE(mkdtemp(name.data()), nullptr);
+    folder_ = name;
+    write("Barcodes.dat", "# Subject # Barcode #\n 1 5\n 2 14\n 6 63\n 7 81\n");
+    write("Landmark_Groundtruth.dat", "# s x y sx sy\n6 1.5 -2.5 0.001 0.002\n7 3 4 0.001 0.001\n");
+    write("Robot1_Groundtruth.dat", "10.0 1 2 0.5\n10.5 1.1 2 0.6\n10.5 1.1 2 0.6\n11 1.2 2 0.7\n");
+    write("Robot1_Odometry.dat", "10.0 0.2 0.0\n10.4 0.2 1.0\n10.8 0.0 0.0\n");
+    write("Robot1_Measurement.dat",
+          "# t b r b\n10.2 63 2.5 0.25\n10.2 14 1.0 0.0\n10.6 14 1.1 0.1\n11.0 81 3.5 -0.5\n"
+          "11.0 63 2.0 0.75\n11.2 99 1.0 0.0\n");
+    options_.folder = folder_;
+    options_.log = folder_ / "robot1.rawlog";
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name) << text;
+  }
+  std::string refusal() const {
+    try {
+      importMrclam(options_);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  fs::path folder_;
+  MrclamImportOptions options_;
+};
+
+TEST_F(MrclamImport, OneSensoryFrameForEachStampWithSubjectsAsIdentities) {
+  const auto result = importMrclam(options_);
+  EXPECT_EQ(result.frames, 4u);
+  EXPECT_EQ(result.readings, 3u);
+  EXPECT_EQ(result.robot_readings.at(2), 2u);
+  EXPECT_EQ(result.unknown_barcodes.at(99), 1u);
+  ASSERT_EQ(result.landmarks.size(), 2u);
+  EXPECT_EQ(result.ground_truth_poses, 3u);
+  EXPECT_EQ(readTum(folder_ / "robot1_ground_truth.tum").size(), 3u);
+
+  RawlogSource source(options_.log);
+  std::vector<Frame> frames;
+  while (auto frame = source.next()) frames.push_back(*frame);
+  ASSERT_EQ(frames.size(), 4u);
+  EXPECT_NEAR(frames[0].stamp_s, 10.2, 1e-6);
+  EXPECT_NEAR(frames[3].stamp_s, 11.2, 1e-6);
+  ASSERT_TRUE(frames[2].range_bearing);
+  const auto& scan = *frames[2].range_bearing;
+  ASSERT_EQ(scan.readings.size(), 2u);
+  EXPECT_EQ(scan.readings[0].id, 7);
+  EXPECT_NEAR(scan.readings[0].range_m, 3.5, 1e-6);
+  EXPECT_NEAR(scan.readings[0].yaw, -0.5, 1e-6);
+  EXPECT_NEAR(scan.range_sigma_m, options_.range_sigma_m, 1e-6);
+  EXPECT_NEAR(scan.yaw_sigma, options_.bearing_sigma, 1e-6);
+  EXPECT_TRUE(frames[1].range_bearing->readings.empty());
+}
+
+TEST_F(MrclamImport, IntegratesWheelSpeedsAsArcs) {
+  importMrclam(options_);
+  RawlogSource source(options_.log);
+  std::vector<Pose2> poses;
+  while (auto frame = source.next()) poses.push_back(frame->odometry->T_odom_robot);
+  ASSERT_EQ(poses.size(), 4u);
+  // 0.2 s straight, 0.2 s on a circle of 0.2 m; then 0.2 s more of it and rest.
+  const Pose2 first = poses[0].inverse() * poses[1];
+  EXPECT_NEAR(first.x, 0.04 + 0.2 * std::sin(0.2), 1e-9);
+  EXPECT_NEAR(first.y, 0.2 * (1.0 - std::cos(0.2)), 1e-9);
+  EXPECT_NEAR(first.phi, 0.2, 1e-9);
+  const Pose2 whole = poses[0].inverse() * poses[3];
+  EXPECT_NEAR(whole.x, 0.04 + 0.2 * std::sin(0.4), 1e-9);
+  EXPECT_NEAR(whole.phi, 0.4, 1e-9);
+}
+
+TEST_F(MrclamImport, CovarianceDoesNotDependOnHowAnArcIsCut) {
+  WheelSpeedNoise noise;
+  ArcSum once(noise), often(noise);
+  once.add(0.3, 0.4, 2.0);
+  for (int i = 0; i < 2000; ++i) often.add(0.3, 0.4, 0.001);
+  EXPECT_NEAR(once.motion().x, often.motion().x, 1e-9);
+  EXPECT_NEAR(once.covariance()(2, 2), often.covariance()(2, 2), 1e-9);
+  EXPECT_NEAR(once.covariance()(0, 0) / often.covariance()(0, 0), 1.0, 0.15);
+  // A heading that walks randomly shifts the end across, which one piece cannot tell.
+  EXPECT_GT(often.covariance()(1, 1), once.covariance()(1, 1));
+}
+
+TEST_F(MrclamImport, SameInputSameBytes) {
+  importMrclam(options_);
+  const auto bytes = [](const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(file), {});
+  };
+  const std::string first = bytes(options_.log);
+  options_.log = folder_ / "again.rawlog";
+  importMrclam(options_);
+  EXPECT_EQ(first, bytes(options_.log));
+}
+
+TEST_F(MrclamImport, NamesFileAndLineOfWhatCannotBeRead) {
+  write("Robot1_Measurement.dat", "# t b r b\n10.2 63 2.5 0.25\n10.3 63 2.5\n");
+  EXPECT_THAT(refusal(),
+              HasSubstr("Robot1_Measurement.dat:3: expected `time barcode range bearing`"));
+  write("Robot1_Measurement.dat", "10.2 63 nan 0.25\n");
+  EXPECT_THAT(refusal(), HasSubstr("Robot1_Measurement.dat:1: `nan`"));
+  write("Robot1_Measurement.dat", "10.2 63 1 0.25\n10.1 63 1 0.25\n");
+  EXPECT_THAT(refusal(), HasSubstr("Robot1_Measurement.dat:2: stamp 10.100 goes back"));
+  write("Robot1_Measurement.dat", "# nothing\n");
+  EXPECT_THAT(refusal(), HasSubstr("holds no line"));
+  fs::remove(folder_ / "Robot1_Measurement.dat");
+  EXPECT_THAT(refusal(), HasSubstr("Robot1_Measurement.dat: No such file"));
+  write("Robot1_Measurement.dat", "10.2 63 2.5 0.25\n");
+  write("Barcodes.dat", "6 63\n7 63\n");
+  EXPECT_THAT(refusal(), HasSubstr("Barcodes.dat:2: barcode 63 stands twice"));
+  EXPECT_FALSE(fs::exists(options_.log));
+}
+
+TEST_F(MrclamImport, RealRobot) {
+  COLONNADE_REQUIRE_RECORDING(data, "mrclam7");
+  options_.folder = data;
+  options_.robot = 4;
+  const auto result = importMrclam(options_);
+  EXPECT_EQ(result.frames, 1463u);
+  EXPECT_EQ(result.readings, 1822u);
+  EXPECT_EQ(result.landmarks.size(), 15u);
+  EXPECT_NEAR(result.path_m, 37.1, 0.3);  // chords between stamps of 38.4 m of arcs
+}
+
+}  // namespace
+}  // namespace colonnade
