@@ -9,9 +9,11 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "colonnade/base/atomic_file.hpp"
+#include "colonnade/base/log_path.hpp"
 #include "colonnade/base/text.hpp"
 #include "colonnade/detectors/detection_csv.hpp"
 #include "colonnade/detectors/draw_detections.hpp"
+#include "colonnade/evaluation/detection_score.hpp"
 #include "colonnade/frames/image_source.hpp"
 #include "interrupt.hpp"
 #include "progress.hpp"
@@ -31,6 +33,7 @@ struct DetectArguments {
   std::string backend = "opencv";
   std::vector<std::string> assignments;
   std::size_t picture_every = 1;
+  bool score = false;
 };
 
 std::unique_ptr<FrameSource> openInput(const fs::path& input, const SourceOptions& options) {
@@ -79,6 +82,16 @@ struct Tally {
   }
 };
 
+std::vector<ImageLine> acceptedLines(const Detections& detections) {
+  std::vector<ImageLine> lines;
+  for (const Detection& d : detections)
+    if (d.accepted())
+      lines.push_back(
+          {d.kind(), d.a_px, d.b_px,
+           d.measurement.hasRange() ? std::optional(d.measurement.z(1)) : std::nullopt});
+  return lines;
+}
+
 std::string pictureName(std::size_t frame) {
   std::string number = std::to_string(frame);
   number.insert(0, number.size() < 5 ? 5 - number.size() : 0, '0');
@@ -94,7 +107,11 @@ ExitCode detect(const DetectArguments& arguments) {
   MountingEstimator mounting(stages.motion, std::make_shared<CameraTracker>(stages.motion));
   DetectorBank detectors(stages.detectors);
 
+  TrueImageLines truth;
+  if (arguments.score) truth = readColumnsCsv(logStem(arguments.input).string() + "_columns.csv");
+
   const fs::path folder = makeResultsFolder(arguments.output, arguments.input);
+  DetectionScore score;
   Tally tally;
   Progress progress;
   const InterruptGuard interrupt;
@@ -114,6 +131,8 @@ ExitCode detect(const DetectArguments& arguments) {
       tally.edges_ms.push_back(Milliseconds(middle - start).count());
       tally.detectors_ms.push_back(Milliseconds(end - middle).count());
       tally.add(detections);
+      if (const auto there = truth.find(microseconds(frame->stamp_s)); there != truth.end())
+        score.add(acceptedLines(detections), there->second);
       std::fputs(detectionCsvRows(*frame, detections).c_str(), table);
       if (arguments.picture_every > 0 && frame->index % arguments.picture_every == 0)
         cv::imwrite((folder / pictureName(frame->index)).string(),
@@ -123,8 +142,11 @@ ExitCode detect(const DetectArguments& arguments) {
     if (std::fclose(table) != 0) throw Error(path.string() + ": cannot be written to the end");
   });
   progress.finish();
-  writeFileAtomically(folder / "detect.json", tally.json().dump(2) + "\n");
-  std::printf("%sresults    %s\n", tally.text().c_str(), folder.c_str());
+  auto json = tally.json();
+  if (arguments.score) json["score"] = toJson(score);
+  writeFileAtomically(folder / "detect.json", json.dump(2) + "\n");
+  std::printf("%s%sresults    %s\n", tally.text().c_str(),
+              arguments.score ? toText(score).c_str() : "", folder.c_str());
   const Damage& damage = source->damage();
   if (!damage.detail.empty())
     std::fprintf(stderr, "%s: %s\n", arguments.input.c_str(), damage.detail.c_str());
@@ -147,6 +169,8 @@ Action addDetect(CLI::App& verb) {
       ->allow_extra_args(false);
   verb.add_option("--picture-every", arguments->picture_every, "frames; 0: no pictures")
       ->capture_default_str();
+  verb.add_flag("--score", arguments->score,
+                "against STEM_columns.csv, which simulate writes beside its log");
   verb.footer(
       "Examples:\n"
       "  colonnade detect corridor.rawlog -o seen\n"

@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "colonnade/base/landmark.hpp"
+
+namespace colonnade {
+
+/// A landmark in one picture: the ends of its line in pixels and, where known, how far it is.
+struct ImageLine {
+  LandmarkKind kind = LandmarkKind::kPillarEdge;
+  Eigen::Vector2d a_px = Eigen::Vector2d::Zero();
+  Eigen::Vector2d b_px = Eigen::Vector2d::Zero();
+  std::optional<double> distance_m;
+};
+
+/// What really is in that picture.
+struct TrueImageLine : ImageLine {
+  int landmark = -1;
+  double visible_px = 0.0;
+  double contrast = 0.0;  ///< gray levels across it
+};
+
+/// STEM_columns.csv of a simulated log, by stamp in microseconds. Throws Error.
+using TrueImageLines = std::map<std::int64_t, std::vector<TrueImageLine>>;
+TrueImageLines readColumnsCsv(const std::filesystem::path& path);
+std::int64_t microseconds(double stamp_s);
+
+struct DetectionScoreOptions {
+  double tolerance_px = 3.0;   ///< across the line, at both ends of what the two have in common
+  double least_overlap = 0.5;  ///< of the shorter one
+  /// True lines a detector has to find; all others it may.
+  double max_distance_m = 6.0;
+  double min_visible_px = 60.0;
+  double min_contrast = 15.0;
+};
+
+/// Scores detections of one kind over many pictures.
+///   precision: share of the detections that lie on a true line of their kind, however faint
+///   recall: share of the true lines to be found that have a detection
+///   offset_rms_px: across the line, of detections and the true lines nearest to them
+class DetectionScore {
+ public:
+  explicit DetectionScore(const DetectionScoreOptions& options = {}) : options_(options) {}
+
+  /// One picture: accepted detections against what is there.
+  void add(const std::vector<ImageLine>& detected, const std::vector<TrueImageLine>& there);
+
+  struct Kind {
+    std::size_t detected = 0, right = 0;
+    std::size_t wanted = 0, found = 0;
+    double offset_squares = 0.0;
+    double distance_squares = 0.0;
+    std::size_t distances = 0;
+
+    double precision() const;
+    double recall() const;
+    double offsetRms() const;
+    double distanceRms() const;
+  };
+  const Kind& of(LandmarkKind kind) const { return kinds_[static_cast<std::size_t>(kind)]; }
+  const DetectionScoreOptions& options() const { return options_; }
+
+ private:
+  DetectionScoreOptions options_;
+  std::array<Kind, kLandmarkKinds> kinds_{};
+};
+
+nlohmann::ordered_json toJson(const DetectionScore& score);
+std::string toText(const DetectionScore& score);
+
+}  // namespace colonnade

@@ -1,0 +1,160 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "colonnade/evaluation/detection_score.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "colonnade/base/csv_table.hpp"
+#include "colonnade/base/error.hpp"
+#include "colonnade/base/text.hpp"
+
+namespace colonnade {
+namespace {
+
+std::optional<LandmarkKind> kindOfName(const std::string& text) {
+  for (int i = 0; i < kLandmarkKinds; ++i)
+    if (text == name(static_cast<LandmarkKind>(i))) return static_cast<LandmarkKind>(i);
+  return std::nullopt;
+}
+
+/// The offset across `there` of the part of `seen` beside it, if they share enough and lie near
+/// enough at both ends of that part.
+std::optional<double> offsetAcross(const ImageLine& seen, const ImageLine& there,
+                                   const DetectionScoreOptions& options) {
+  const Eigen::Vector2d axis = there.b_px - there.a_px;
+  const double length = axis.norm();
+  const Eigen::Vector2d across_seen = seen.b_px - seen.a_px;
+  if (length < 1.0 || across_seen.norm() < 1.0) return std::nullopt;
+  const Eigen::Vector2d along = axis / length;
+  const Eigen::Vector2d normal(-along.y(), along.x());
+  double t0 = along.dot(seen.a_px - there.a_px), t1 = along.dot(seen.b_px - there.a_px);
+  double d0 = normal.dot(seen.a_px - there.a_px), d1 = normal.dot(seen.b_px - there.a_px);
+  if (t0 > t1) {
+    std::swap(t0, t1);
+    std::swap(d0, d1);
+  }
+  const double from = std::max(0.0, t0), to = std::min(length, t1);
+  if (to - from < options.least_overlap * std::min(length, t1 - t0) || !(t1 > t0))
+    return std::nullopt;
+  const auto at = [&](double t) { return d0 + (d1 - d0) * (t - t0) / (t1 - t0); };
+  if (std::max(std::abs(at(from)), std::abs(at(to))) > options.tolerance_px) return std::nullopt;
+  return at(0.5 * (from + to));
+}
+
+bool isWanted(const TrueImageLine& line, const DetectionScoreOptions& options) {
+  return line.visible_px >= options.min_visible_px && line.contrast >= options.min_contrast &&
+         (!line.distance_m || *line.distance_m <= options.max_distance_m);
+}
+
+double share(std::size_t part, std::size_t whole) {
+  return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
+}
+
+}  // namespace
+
+std::int64_t microseconds(double stamp_s) { return std::llround(1e6 * stamp_s); }
+
+TrueImageLines readColumnsCsv(const std::filesystem::path& path) {
+  CsvTable table(
+      path, {"stamp", "id", "kind", "u0", "v0", "u1", "v1", "visible_px", "range_m", "contrast"},
+      "a table of what each frame shows");
+  TrueImageLines lines;
+  while (const auto row = table.next()) {
+    auto& frame = lines[microseconds(row->number("stamp"))];
+    const auto kind = kindOfName(row->text("kind"));
+    if (!kind) continue;  // a person, glass: nothing to find
+    TrueImageLine line;
+    line.kind = *kind;
+    line.a_px = {row->number("u0"), row->number("v0")};
+    line.b_px = {row->number("u1"), row->number("v1")};
+    if (!row->empty("range_m")) line.distance_m = row->number("range_m");
+    line.landmark = row->integer("id");
+    line.visible_px = row->number("visible_px");
+    line.contrast = row->empty("contrast") ? 0.0 : row->number("contrast");
+    frame.push_back(line);
+  }
+  return lines;
+}
+
+void DetectionScore::add(const std::vector<ImageLine>& detected,
+                         const std::vector<TrueImageLine>& there) {
+  std::vector<bool> found(there.size(), false);
+  for (const ImageLine& seen : detected) {
+    Kind& kind = kinds_[static_cast<std::size_t>(seen.kind)];
+    ++kind.detected;
+    std::optional<double> nearest;
+    std::size_t nearest_line = 0;
+    for (std::size_t i = 0; i < there.size(); ++i) {
+      if (there[i].kind != seen.kind) continue;
+      const auto offset = offsetAcross(seen, there[i], options_);
+      if (!offset) continue;
+      found[i] = true;
+      if (nearest && std::abs(*nearest) <= std::abs(*offset)) continue;
+      nearest = offset;
+      nearest_line = i;
+    }
+    if (!nearest) continue;
+    ++kind.right;
+    kind.offset_squares += *nearest * *nearest;
+    if (!seen.distance_m || !there[nearest_line].distance_m) continue;
+    const double error = *seen.distance_m - *there[nearest_line].distance_m;
+    kind.distance_squares += error * error;
+    ++kind.distances;
+  }
+  for (std::size_t i = 0; i < there.size(); ++i) {
+    if (!isWanted(there[i], options_)) continue;
+    Kind& kind = kinds_[static_cast<std::size_t>(there[i].kind)];
+    ++kind.wanted;
+    kind.found += found[i] ? 1 : 0;
+  }
+}
+
+double DetectionScore::Kind::precision() const { return share(right, detected); }
+double DetectionScore::Kind::recall() const { return share(found, wanted); }
+double DetectionScore::Kind::offsetRms() const {
+  return right == 0 ? 0.0 : std::sqrt(offset_squares / static_cast<double>(right));
+}
+double DetectionScore::Kind::distanceRms() const {
+  return distances == 0 ? 0.0 : std::sqrt(distance_squares / static_cast<double>(distances));
+}
+
+nlohmann::ordered_json toJson(const DetectionScore& score) {
+  nlohmann::ordered_json json;
+  for (int i = 0; i < kLandmarkKinds; ++i) {
+    const auto& kind = score.of(static_cast<LandmarkKind>(i));
+    const auto orNull = [](bool known, double value) {
+      return known ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
+    };
+    json[name(static_cast<LandmarkKind>(i))] = {
+        {"detected", kind.detected},
+        {"precision", orNull(kind.detected > 0, kind.precision())},
+        {"wanted", kind.wanted},
+        {"recall", orNull(kind.wanted > 0, kind.recall())},
+        {"offset_rms_px", orNull(kind.right > 0, kind.offsetRms())},
+        {"distance_rms_m", orNull(kind.distances > 0, kind.distanceRms())}};
+  }
+  return json;
+}
+
+std::string toText(const DetectionScore& score) {
+  const auto& o = score.options();
+  std::string text = "against the truth, within " + formatFixed(o.tolerance_px, 1) +
+                     " px; recall of lines nearer than " + formatFixed(o.max_distance_m, 1) +
+                     " m, " + formatFixed(o.min_visible_px, 0) + " px or more in view, contrast " +
+                     formatFixed(o.min_contrast, 0) + " or more\n";
+  for (int i = 0; i < kLandmarkKinds; ++i) {
+    const auto& kind = score.of(static_cast<LandmarkKind>(i));
+    std::string line = name(static_cast<LandmarkKind>(i));
+    line.resize(12, ' ');
+    line += "precision " + formatFixed(kind.precision(), 3) + " of " +
+            std::to_string(kind.detected) + ", recall " + formatFixed(kind.recall(), 3) + " of " +
+            std::to_string(kind.wanted) + ", offset " + formatFixed(kind.offsetRms(), 2) +
+            " px rms, distance " + formatFixed(kind.distanceRms(), 3) + " m rms\n";
+    text += line;
+  }
+  return text;
+}
+
+}  // namespace colonnade

@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "colonnade/evaluation/detection_score.hpp"
+
+#include <gtest/gtest.h>
+
+namespace colonnade {
+namespace {
+
+ImageLine upright(double column, double top, double bottom,
+                  std::optional<double> distance_m = std::nullopt) {
+  return {LandmarkKind::kPillarEdge, {column, top}, {column, bottom}, distance_m};
+}
+
+TrueImageLine truth(double column, double top, double bottom, double distance_m = 3.0,
+                    double contrast = 40.0) {
+  TrueImageLine line;
+  static_cast<ImageLine&>(line) = upright(column, top, bottom, distance_m);
+  line.visible_px = bottom - top;
+  line.contrast = contrast;
+  return line;
+}
+
+class PillarScore : public ::testing::Test {
+ protected:
+  const DetectionScore::Kind& scored(const std::vector<ImageLine>& detected,
+                                     const std::vector<TrueImageLine>& there) {
+    score_.add(detected, there);
+    return score_.of(LandmarkKind::kPillarEdge);
+  }
+  DetectionScore score_;
+};
+
+TEST_F(PillarScore, CountsWhatIsRightAndWhatIsFound) {
+  const auto& kind = scored({upright(101.0, 50, 250, 3.1), upright(200.0, 50, 250)},
+                            {truth(100.0, 40, 260), truth(300.0, 40, 260)});
+  EXPECT_DOUBLE_EQ(0.5, kind.precision());
+  EXPECT_DOUBLE_EQ(0.5, kind.recall());
+  EXPECT_DOUBLE_EQ(1.0, kind.offsetRms());
+  EXPECT_NEAR(0.1, kind.distanceRms(), 1e-12);
+}
+
+TEST_F(PillarScore, FaintFarAndShortLinesNeedNotBeFoundButMay) {
+  const auto& kind = scored({upright(100, 0, 200)}, {truth(100, 0, 200, 3.0, 5.0),
+                                                     truth(200, 0, 200, 9.0), truth(300, 0, 40)});
+  EXPECT_EQ(0U, kind.wanted);
+  EXPECT_DOUBLE_EQ(1.0, kind.precision());
+}
+
+TEST_F(PillarScore, ALineMustLieThereOverItsLength) {
+  // Crosses the true one, lies above it, or is of another kind.
+  ImageLine slanted = upright(100, 0, 200);
+  slanted.b_px.x() += 12.0;
+  ImageLine other = upright(100, 0, 200);
+  other.kind = LandmarkKind::kFloorEdge;
+  const auto& kind = scored({slanted, upright(100, 260, 400), other}, {truth(100, 0, 200)});
+  EXPECT_EQ(0U, kind.right);
+  EXPECT_EQ(0U, kind.found);
+  EXPECT_EQ(1U, score_.of(LandmarkKind::kFloorEdge).detected);
+}
+
+TEST_F(PillarScore, TheOrderOfEndsDoesNotMatter) {
+  ImageLine reversed = upright(100.5, 0, 200);
+  std::swap(reversed.a_px, reversed.b_px);
+  const auto& kind = scored({reversed}, {truth(100, 0, 200)});
+  EXPECT_DOUBLE_EQ(1.0, kind.precision());
+  EXPECT_DOUBLE_EQ(0.5, kind.offsetRms());
+}
+
+}  // namespace
+}  // namespace colonnade
