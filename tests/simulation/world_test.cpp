@@ -8,6 +8,7 @@
 #include "colonnade/base/error.hpp"
 #include "colonnade/simulation/building.hpp"
 #include "colonnade/simulation/drive.hpp"
+#include "colonnade/simulation/world_check.hpp"
 #include "shared_data.hpp"
 #include "test_worlds.hpp"
 
@@ -20,12 +21,19 @@ using ::testing::HasSubstr;
 /// The message of the error this text causes.
 std::string errorOf(const std::string& text) {
   try {
-    buildBuilding(parseWorld(text, "my.world"));
+    checkWorld(parseWorld(text, "my.world"));
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::kUsage);
     return error.what();
   }
   return "no error";
+}
+
+/// A closed room of 5 m by 4 m, one wall a line, and a way through its middle.
+std::string closedRoom(const std::string& more) {
+  return "wall south 0 0 5 0\nwall east 5 0 5 4\nwall north 5 4 0 4\nwall west 0 4 0 0\n"
+         "start 1 2\n" +
+         more;
 }
 
 const std::string kWall = "wall south 0 0 5 0\n";
@@ -74,6 +82,116 @@ TEST(World, errorsNameFileLineAndWhatToDo) {
   EXPECT_THROW(readWorld("/nowhere.world"), Error);
 }
 
+TEST(World, anOpenWallIsRefusedWithItsLine) {
+  EXPECT_EQ(errorOf(closedRoom("drive 4 2\n")), "no error");
+  // The north wall is missing: both its neighbours end in the open.
+  EXPECT_THAT(errorOf("wall south 0 0 5 0\nwall east 5 0 5 4\nwall west 0 4 0 0\n"
+                      "start 1 2\ndrive 4 2\n"),
+              AllOf(HasSubstr("my.world:2: wall east"), HasSubstr("5.00 4.00")));
+  // A crack of 4 cm.
+  EXPECT_THAT(errorOf("wall south 0 0 4.96 0\nwall east 5 0 5 4\nwall north 5 4 0 4\n"
+                      "wall west 0 4 0 0\nstart 1 2\ndrive 4 2\n"),
+              AllOf(HasSubstr("my.world:1: wall south"), HasSubstr("0.04 m from wall east")));
+  // A partition within the room leaks nowhere.
+  EXPECT_EQ(errorOf(closedRoom("wall partition 2.5 0 2.5 1\ndrive 4 2\n")), "no error");
+  // Behind an open door the room must be closed as well, once the robot is there.
+  const std::string open_room =
+      "wall p 0 4.2 5 4.2\nwall q 5 4.2 5 8\nwall r 0 8 0 4.2\n"
+      "door wall=north at_m=2.5 into=p state=open hinge=left\n";
+  EXPECT_EQ(errorOf(closedRoom(open_room + "drive 2.5 2\n")), "no error");
+  EXPECT_THAT(errorOf(closedRoom(open_room + "drive 2.5 2\ndrive 2.5 6\n")),
+              HasSubstr("my.world:7: wall q"));
+  EXPECT_THAT(errorOf("room r 0 0 5 0 5 4 0 4\nstart 9 9\ndrive 9 7\n"),
+              AllOf(HasSubstr("my.world:2:"), HasSubstr("outside")));
+}
+
+TEST(World, aRobotThatRunsIntoSomethingIsRefusedWithTheLineOfItsStep) {
+  for (const auto& [thing, name] :
+       {std::pair{"", "wall east"},
+        {"pillar 3.2 2 size_m=0.3,0.3\n", "the pillar of my.world:6"},
+        {"column 3.2 2.2 diameter_m=0.4\n", "the pillar of my.world:6"},
+        {"table 3.2 2\n", "the table of my.world:6"},
+        {"chair 3.2 2\n", "the chair of my.world:6"},
+        {"cabinet 3.2 2.4 turn_deg=90\n", "the cabinet of my.world:6"},
+        {"pilaster wall=south at_m=3 width_m=0.4 depth_m=1.9\n", "wall south"}}) {
+    SCOPED_TRACE(thing);
+    const std::string text = closedRoom(thing) + "drive 2 2\ndrive 4.8 2\n";
+    const int line = std::string(thing).empty() ? 7 : 8;
+    EXPECT_THAT(errorOf(text), AllOf(HasSubstr("my.world:" + std::to_string(line) + ": the robot"),
+                                     HasSubstr(name)));
+  }
+  EXPECT_THAT(errorOf(closedRoom("pillar 1 2\ndrive 3 2\n")), HasSubstr("my.world:5:"));
+  // 0.3 m from the wall: too near for a larger robot.
+  EXPECT_EQ(errorOf(closedRoom("drive 4.7 2\n")), "no error");
+  EXPECT_THAT(errorOf(closedRoom("robot radius_m=0.4\ndrive 4.7 2\n")), HasSubstr("0.40 m"));
+}
+
+TEST(World, peopleNeedTwoPlacesAndKeepOffTheRobot) {
+  EXPECT_THAT(errorOf(closedRoom("walker 1 1\ndrive 4 2\n")),
+              AllOf(HasSubstr("my.world:6:"), HasSubstr("two waypoints")));
+  EXPECT_THAT(errorOf(closedRoom("walker 3 1 3 1\ndrive 4 2\n")), HasSubstr("same place"));
+  EXPECT_THAT(errorOf(closedRoom("walker 4 2 1 2\ndrive 4 2\n")),
+              AllOf(HasSubstr("my.world:6:"), HasSubstr("into the robot")));
+  EXPECT_EQ(errorOf(closedRoom("walker -3 1 9 1\ndrive 4 2\n")), "no error");
+}
+
+TEST(World, lengthsBelowZeroAreRefused) {
+  for (const char* line :
+       {"wall x 0 0 1 0 height_m=-2", "wall x 0 0 1 0 skirting_m=-0.1",
+        "door wall=south at_m=2 width_m=-0.9", "door wall=south at_m=-2", "pillar 3 3 size_m=-1,1",
+        "column 3 3 diameter_m=-0.2", "table 3 3 height_m=-0.7", "drive 3 2 speed_m_per_s=-1",
+        "board wall=south at_m=2 width_m=-1", "walker 1 1 2 2 height_m=-1", "wait -1",
+        "robot radius_m=-0.1"}) {
+    EXPECT_THAT(errorOf(closedRoom(std::string(line) + "\ndrive 4 2\n")), HasSubstr("my.world:6: "))
+        << line;
+  }
+}
+
+TEST(World, doorsThatOverlapAreRefusedWithTheirLines) {
+  EXPECT_THAT(errorOf(closedRoom("door wall=south at_m=2\ndoor wall=south at_m=2.8\ndrive 4 2\n")),
+              AllOf(HasSubstr("my.world:6:"), HasSubstr("my.world:7"), HasSubstr("overlap")));
+}
+
+TEST(World, openDoorsNeedAWallBehindThatRunsTheOtherWay) {
+  const std::string end = "drive 4 2\n";
+  EXPECT_THAT(errorOf(closedRoom("door wall=south at_m=2 state=open\n" + end)),
+              AllOf(HasSubstr("my.world:6:"), HasSubstr("into=WALL")));
+  EXPECT_THAT(errorOf(closedRoom("door wall=south at_m=2 into=east state=open\n" + end)),
+              HasSubstr("the other way"));
+  EXPECT_THAT(errorOf(closedRoom("door wall=south at_m=2 state=ajar\n" + end)),
+              HasSubstr("passage"));
+}
+
+TEST(World, partsOfTheRouteAreRepeated) {
+  const std::string lap = "drive 4 2 radius_m=0\ndrive 1 2 radius_m=0\n";
+  const auto steps = [&](const std::string& text, const std::vector<std::string>& more = {}) {
+    return parseWorld(closedRoom(text), "my.world", more).route.steps.size();
+  };
+  EXPECT_EQ(steps("wait 1\nrepeat 3\n" + lap + "end\ndrive 3 2\n"), 8U);
+  EXPECT_EQ(steps("repeat 3\n" + lap + "end\n", {"route laps=5"}), 10U);
+  EXPECT_THAT(errorOf(closedRoom("repeat 3\n" + lap)), HasSubstr("my.world:6:"));
+  EXPECT_THAT(errorOf(closedRoom(lap + "end\n")), HasSubstr("my.world:8:"));
+  EXPECT_THAT(errorOf(closedRoom("repeat 0\n" + lap + "end\n")), HasSubstr("whole number"));
+  EXPECT_THAT(errorOf(closedRoom("repeat 2\nrepeat 2\n" + lap + "end\nend\n")),
+              HasSubstr("my.world:7:"));
+}
+
+TEST(World, walkersGoThereAndBackOrRound) {
+  Walker walker;
+  walker.waypoints = {{0, 0}, {4, 0}, {4, 3}};
+  walker.speed_m_per_s = 1.0;
+  EXPECT_NEAR(walker.poseAt(2.0).x, 2.0, 1e-9);
+  EXPECT_NEAR(walker.poseAt(5.0).phi, radians(90.0), 1e-9);
+  EXPECT_NEAR(walker.poseAt(8.0).y, 2.0, 1e-9);
+  EXPECT_NEAR(walker.poseAt(8.0).phi, radians(-90.0), 1e-9);
+  EXPECT_NEAR(walker.poseAt(15.0).x, 1.0, 1e-9);  // 14 m there and back
+  walker.round = true;
+  EXPECT_NEAR(walker.poseAt(9.5).x, 2.0, 1e-9);  // half of the 5 m back
+  EXPECT_NEAR(walker.poseAt(9.5).y, 1.5, 1e-9);
+  walker.phase_s = 2.0;
+  EXPECT_NEAR(walker.poseAt(1.0).x, 3.0, 1e-9);
+}
+
 TEST(World, amendmentsComeLast) {
   const auto path = testing::sourceFolder() / "rawlogs/worlds/corridor.world";
   EXPECT_DOUBLE_EQ(readWorld(path, {"camera rate_hz=4"}).camera.rate_hz, 4.0);
@@ -88,7 +206,10 @@ TEST(World, everyWorldInTheRepositoryCanBeBuiltAndDriven) {
     SCOPED_TRACE(entry.path());
     const auto world = readWorld(entry.path());
     EXPECT_GT(buildBuilding(world).edges.size(), 10U);
-    EXPECT_GT(driveRoute(world.route, world.camera.rate_hz).size(), 50U);
+    const auto poses = driveRoute(world.route, world.camera.rate_hz);
+    const double duration_s = static_cast<double>(poses.size()) / world.camera.rate_hz;
+    EXPECT_GT(duration_s, 20.0);
+    EXPECT_LT(duration_s, 70.0);
     ++worlds;
   }
   EXPECT_GE(worlds, 1);

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fittings.hpp"
 #include "profile.hpp"
+#include "solids.hpp"
 
 namespace colonnade {
 namespace {
@@ -13,19 +15,6 @@ namespace {
 constexpr double kSamePlaceM = 1e-3;  ///< metres within which two wall ends meet
 constexpr double kHiddenConcaveM =
     0.06;  ///< a concave edge this near to a convex one is not listed
-
-Eigen::Vector3d atHeight(const Eigen::Vector2d& p, double z) { return {p.x(), p.y(), z}; }
-
-/// An upright face over the line from a to b, seen from the left of that line.
-Face uprightFace(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double bottom, double top,
-                 std::size_t material) {
-  Face face;
-  face.origin = atHeight(b, bottom);
-  face.along = atHeight(a, bottom) - face.origin;
-  face.up = {0.0, 0.0, top - bottom};
-  face.material = material;
-  return face;
-}
 
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
@@ -38,12 +27,9 @@ class Builder {
   Building build() {
     bounds();
     for (std::size_t i = 0; i < world_.walls.size(); ++i) addWall(i);
-    for (const auto& pillar : world_.pillars) {
-      add(pillarProfile(pillar), nullptr, true);
-      building_.faces.push_back(lid(pillar));
-    }
-    for (const auto& door : world_.doors) addDoorHead(door);
-    for (const auto& board : world_.boards) addBoard(board);
+    for (const auto& solid : solidsOf(world_)) addSolid(solid);
+    for (const auto& door : world_.doors) addFaces(doorHead(world_, door));
+    for (const auto& board : world_.boards) addFaces(boardFaces(world_, board));
     addWallCorners();
     addFloorAndCeiling();
     for (auto& face : building_.faces) face.surface = world_.materials[face.material].surface;
@@ -66,28 +52,76 @@ class Builder {
 
   void addWall(std::size_t index) {
     const Wall& wall = world_.walls[index];
-    add(wallProfile(world_, index), &wall, false);
-  }
-
-  /// Draws a profile and lists its edges and floor lines. `closed`: the last piece meets the first.
-  void add(const Profile& profile, const Wall* wall, bool closed) {
-    const auto& pieces = profile.pieces;
-    for (const auto& piece : pieces) {
+    const Profile profile = wallProfile(world_, index);
+    const SkirtingBoard board(world_, index);
+    for (const auto& piece : profile.pieces) {
+      if (piece.gap) {
+        building_.gaps.push_back({piece.a, piece.b, wall.hallway, piece.height_m});
+        continue;
+      }
+      addObstacle("wall " + wall.name, {piece.a, piece.b}, false, 0.0);
       Face face = uprightFace(piece.a, piece.b, 0.0, piece.height_m, piece.material);
-      if (piece.skirting && wall && wall->skirting_m > 0.0) {
-        face.skirting_m = wall->skirting_m;
-        face.skirting_material = wall->skirting_material;
+      const bool has_board = piece.skirting && wall.skirting_m > 0.0;
+      if (has_board && wall.skirting_out_m > 0.0) {
+        const auto [a, b] = board.frontOf(piece.a, piece.b);
+        addFaces(board.faces(piece.a, piece.b));
+        addFloorLine({a, b, wall.hallway, piece.height_m});
+      } else {
+        addFloorLine({piece.a, piece.b, wall.hallway, piece.height_m});
+        if (has_board) {
+          face.skirting_m = wall.skirting_m;
+          face.skirting_material = wall.skirting_material;
+        }
       }
       building_.faces.push_back(face);
-      const FloorLine line{piece.a, piece.b, wall ? wall->hallway : -1};
-      building_.outline.push_back(line);
-      if ((line.b - line.a).norm() >= kNarrowFaceM) building_.floor_lines.push_back(line);
     }
+    addEdges(profile, false, wall.hallway);
+  }
+
+  void addSolid(const Solid& solid) {
+    const std::size_t n = solid.outline.size();
+    Profile profile;
+    for (std::size_t i = 0; i < n; ++i) {
+      profile.pieces.push_back(
+          {solid.outline[i], solid.outline[(i + 1) % n], solid.top_m, solid.material});
+      const auto& piece = profile.pieces.back();
+      building_.faces.push_back(
+          uprightFace(piece.a, piece.b, solid.bottom_m, solid.top_m, solid.material));
+      if (!solid.standing()) continue;
+      const FloorLine line{piece.a, piece.b, -1, solid.top_m};
+      building_.outline.push_back(line);
+      if (!solid.round) addFloorLine(line, false);
+    }
+    addObstacle(solid.name, solid.outline, true, solid.bottom_m);
+    if (solid.round) return;
+    building_.faces.push_back(lid(solid, solid.top_m));
+    if (!solid.standing()) building_.faces.push_back(lid(solid, solid.bottom_m));
+    profile.partners = {{0, 1}, {2, 3}};
+    if (solid.standing()) addEdges(profile, true, -1);
+  }
+
+  void addFaces(const std::vector<Face>& faces) {
+    building_.faces.insert(building_.faces.end(), faces.begin(), faces.end());
+  }
+
+  void addObstacle(const std::string& name, std::vector<Eigen::Vector2d> outline, bool solid,
+                   double bottom_m) {
+    building_.obstacles.push_back({name, std::move(outline), solid, bottom_m});
+  }
+
+  void addFloorLine(const FloorLine& line, bool of_outline = true) {
+    if (of_outline) building_.outline.push_back(line);
+    if ((line.b - line.a).norm() >= kNarrowFaceM) building_.floor_lines.push_back(line);
+  }
+
+  /// Lists the edges of a profile. `closed`: the last piece meets the first.
+  void addEdges(const Profile& profile, bool closed, int hallway) {
+    const auto& pieces = profile.pieces;
     std::vector<std::optional<std::size_t>> edge_of_piece(pieces.size());
     for (std::size_t i = 0; i < pieces.size(); ++i) {
       if (i == 0 && !closed) continue;
       const std::size_t before = (i + pieces.size() - 1) % pieces.size();
-      const auto edge = edgeBetween(pieces, before, i, wall);
+      const auto edge = edgeBetween(pieces, before, i, hallway);
       if (!edge) continue;
       edge_of_piece[i] = building_.edges.size();
       building_.edges.push_back(*edge);
@@ -104,7 +138,9 @@ class Builder {
 
   std::optional<VerticalEdge> edgeBetween(const std::vector<ProfilePiece>& pieces,
                                           std::size_t before, std::size_t after,
-                                          const Wall* wall) const {
+                                          int hallway) const {
+    // In the middle of an opening the jamb goes on in the wall behind.
+    if (pieces[before].gap || pieces[after].gap) return std::nullopt;
     const Eigen::Vector2d d0 = pieces[before].b - pieces[before].a;
     const Eigen::Vector2d d1 = pieces[after].b - pieces[after].a;
     const double sine = cross(d0.normalized(), d1.normalized());
@@ -118,72 +154,17 @@ class Builder {
     edge.height_m = std::min(pieces[before].height_m, pieces[after].height_m);
     edge.convex = !concave;
     edge.slope = !straight && std::min(d0.norm(), d1.norm()) >= kNarrowFaceM;
-    edge.hallway = wall ? wall->hallway : -1;
+    edge.hallway = hallway;
     return edge;
   }
 
-  static Face lid(const Pillar& pillar) {
-    const auto outline = pillarProfile(pillar).pieces;
+  static Face lid(const Solid& solid, double z) {
     Face face;
-    face.origin = atHeight(outline[0].a, pillar.height_m);
-    face.along = atHeight(outline[3].a, pillar.height_m) - face.origin;
-    face.up = atHeight(outline[1].a, pillar.height_m) - face.origin;
-    face.material = pillar.material;
+    face.origin = atHeight(solid.outline[0], z);
+    face.along = atHeight(solid.outline[3], z) - face.origin;
+    face.up = atHeight(solid.outline[1], z) - face.origin;
+    face.material = solid.material;
     return face;
-  }
-
-  /// The wall above a door, the head of its frame and the soffit of the opening.
-  void addDoorHead(const Door& door) {
-    const Wall& wall = world_.walls[door.wall];
-    const Eigen::Vector2d along = (wall.b - wall.a) / wall.length();
-    const Eigen::Vector2d out(-along.y(), along.x());
-    const auto place = [&](double s, double t) -> Eigen::Vector2d {
-      return wall.a + s * along + t * out;
-    };
-    const double outer = 0.5 * door.width_m + door.frame_m;
-    const double protrusion = door.frame_m > 0.0 ? door.protrusion_m : 0.0;
-    const double top = door.height_m + door.frame_m;
-    const auto upright = [&](double reach, double t, double bottom, double up_to,
-                             std::size_t material) {
-      building_.faces.push_back(uprightFace(place(door.at_m - reach, t),
-                                            place(door.at_m + reach, t), bottom, up_to, material));
-    };
-    const auto level = [&](double reach, double t0, double t1, double z, std::size_t material) {
-      Face face;
-      face.origin = atHeight(place(door.at_m - reach, t0), z);
-      face.along = atHeight(place(door.at_m + reach, t0), z) - face.origin;
-      face.up = atHeight(place(door.at_m - reach, t1), z) - face.origin;
-      face.material = material;
-      if (face.along.norm() > 0.0 && face.up.norm() > 0.0) building_.faces.push_back(face);
-    };
-    upright(outer, 0.0, top, wall.height_m, wall.material);
-    if (door.frame_m > 0.0) {
-      upright(outer, protrusion, door.height_m, top, door.frame_material);
-      level(outer, 0.0, protrusion, top, door.frame_material);
-    }
-    level(0.5 * door.width_m, protrusion, -door.recess_m, door.height_m, door.frame_material);
-  }
-
-  void addBoard(const Board& board) {
-    const Wall& wall = world_.walls[board.wall];
-    const Eigen::Vector2d along = (wall.b - wall.a) / wall.length();
-    const Eigen::Vector2d out(-along.y(), along.x());
-    const Eigen::Vector2d a = wall.a + (board.at_m - 0.5 * board.width_m) * along;
-    const Eigen::Vector2d b = a + board.width_m * along;
-    const Eigen::Vector2d t = board.thickness_m * out;
-    const double top = board.bottom_m + board.height_m;
-    const std::size_t rim = materialNamed("frame");
-    building_.faces.push_back(uprightFace(a + t, b + t, board.bottom_m, top, board.material));
-    building_.faces.push_back(uprightFace(a, a + t, board.bottom_m, top, rim));
-    building_.faces.push_back(uprightFace(b + t, b, board.bottom_m, top, rim));
-    for (const double z : {board.bottom_m, top}) {
-      Face face;
-      face.origin = atHeight(a, z);
-      face.along = atHeight(b, z) - face.origin;
-      face.up = atHeight(a + t, z) - face.origin;
-      face.material = rim;
-      building_.faces.push_back(face);
-    }
   }
 
   /// Where one wall ends and another begins, and where a wall ends in the open.
@@ -239,17 +220,10 @@ class Builder {
       face.origin = atHeight(corner, building_.ceiling_m - 0.01);
       face.along = {lamp.size.x(), 0.0, 0.0};
       face.up = {0.0, -lamp.size.y(), 0.0};
-      face.material = materialNamed("lamp");
+      face.material = materialNamed(world_, "lamp");
       face.glows = true;
       building_.faces.push_back(face);
     }
-  }
-
-  /// A material every world has.
-  std::size_t materialNamed(const char* name) const {
-    std::size_t index = 0;
-    while (world_.materials[index].name != name) ++index;
-    return index;
   }
 
   const World& world_;

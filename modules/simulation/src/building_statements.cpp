@@ -29,6 +29,26 @@ void readNamed(Statement& s, const char* key, T& value,
   }
 }
 
+void wallOptions(Statement& s, const World& world, Wall& wall) {
+  s.number("height_m", wall.height_m, {0.1, 20}, "");
+  s.number("skirting_m", wall.skirting_m, {0, 1}, "");
+  s.number("skirting_out_m", wall.skirting_out_m, {0, 0.1}, "");
+  s.integer("hallway", wall.hallway, {-1, 1000}, "");
+  wall.material = materialOf(s, world, "material", "plaster");
+  wall.skirting_material = materialOf(s, world, "skirting", "skirting");
+  wall.where = s.where();
+}
+
+void addWall(Statement& s, World& world, const Wall& wall) {
+  if (wall.length() < 0.01) s.fail("wall " + wall.name + " is shorter than 1 cm");
+  for (const auto& other : world.walls) {
+    if (other.name == wall.name) s.fail("there is a wall named " + wall.name + " already");
+  }
+  world.walls.push_back(wall);
+}
+
+}  // namespace
+
 std::size_t materialIndex(const World& world, const std::string& name) {
   std::size_t index = 0;
   while (index < world.materials.size() && world.materials[index].name != name) ++index;
@@ -43,38 +63,6 @@ std::size_t materialOf(Statement& s, const World& world, const char* key, const 
   }
   return index;
 }
-
-std::size_t wallOf(Statement& s, const World& world) {
-  const auto name = s.text("wall", "");
-  for (std::size_t i = 0; i < world.walls.size(); ++i) {
-    if (world.walls[i].name == name) return i;
-  }
-  s.fail("wall=" + name + ": no such wall; name one that was defined above");
-}
-
-void onWallAt(Statement& s, const World& world, std::size_t index, double at_m, double width_m) {
-  const auto& wall = world.walls[index];
-  if (at_m - 0.5 * width_m >= 0.0 && at_m + 0.5 * width_m <= wall.length()) return;
-  s.fail("does not fit: wall " + wall.name + " is " + formatFixed(wall.length(), 3) + " m long");
-}
-
-void wallOptions(Statement& s, const World& world, Wall& wall) {
-  s.number("height_m", wall.height_m, {0.1, 20}, "");
-  s.number("skirting_m", wall.skirting_m, {0, 1}, "");
-  s.integer("hallway", wall.hallway, {-1, 1000}, "");
-  wall.material = materialOf(s, world, "material", "plaster");
-  wall.skirting_material = materialOf(s, world, "skirting", "skirting");
-}
-
-void addWall(Statement& s, World& world, const Wall& wall) {
-  if (wall.length() < 0.01) s.fail("wall " + wall.name + " is shorter than 1 cm");
-  for (const auto& other : world.walls) {
-    if (other.name == wall.name) s.fail("there is a wall named " + wall.name + " already");
-  }
-  world.walls.push_back(wall);
-}
-
-}  // namespace
 
 void addBuiltInMaterials(World& world) {
   const auto surface = [&](const char* name, Pattern pattern, Eigen::Vector3d colour,
@@ -95,6 +83,7 @@ void addBuiltInMaterials(World& world) {
   surface("cork", Pattern::kPapers, {172, 138, 96}, {232, 232, 226}, 0.3);
   surface("tiles", Pattern::kTiles, {150, 148, 140}, {104, 102, 98}, 0.45);
   surface("ceiling", Pattern::kTiles, {214, 214, 210}, {170, 170, 168}, 0.62);
+  surface("fabric", Pattern::kPlaster, {62, 74, 104}, {60, 60, 60}, 0.3);
   surface("lamp", Pattern::kLamp, {252, 252, 248}, {214, 214, 210}, 0.3);
   surface("glass", Pattern::kPlain, {172, 190, 188}, {120, 120, 120}, 0.3);
   world.materials.back().surface = Surface::kGlass;
@@ -151,62 +140,6 @@ void readRoom(Statement& s, World& world) {
   }
 }
 
-void readDoor(Statement& s, World& world) {
-  Door read;
-  read.wall = wallOf(s, world);
-  s.number("at_m", read.at_m, {0, 1e4}, "");
-  s.number("width_m", read.width_m, {0.2, 10}, "");
-  s.number("height_m", read.height_m, {0.5, 10}, "");
-  s.number("recess_m", read.recess_m, {0, 2}, "");
-  s.number("frame_m", read.frame_m, {0, 0.5}, "");
-  s.number("protrusion_m", read.protrusion_m, {0, 0.5}, "");
-  read.material = materialOf(s, world, "material", "wood");
-  read.frame_material = materialOf(s, world, "frame", "frame");
-  s.finish(0);
-  onWallAt(s, world, read.wall, read.at_m, read.width_m + 2.0 * read.frame_m);
-  if (read.height_m + read.frame_m >= world.walls[read.wall].height_m) {
-    s.fail("is as high as its wall");
-  }
-  world.doors.push_back(read);
-}
-
-void readPilaster(Statement& s, World& world) {
-  Pilaster read;
-  read.wall = wallOf(s, world);
-  s.number("at_m", read.at_m, {0, 1e4}, "");
-  s.number("width_m", read.width_m, {0.02, 10}, "");
-  s.number("depth_m", read.depth_m, {0.005, 5}, "");
-  read.material = materialOf(s, world, "material", "concrete");
-  s.finish(0);
-  onWallAt(s, world, read.wall, read.at_m, read.width_m);
-  world.pilasters.push_back(read);
-}
-
-void readPillar(Statement& s, World& world) {
-  Pillar read;
-  read.centre = s.point(0, "the centre");
-  s.pair("size_m", read.size, {0.02, 10});
-  s.angle("turn_deg", read.turn, {-180, 180}, "");
-  s.number("height_m", read.height_m, {0.1, 20}, "");
-  read.material = materialOf(s, world, "material", "concrete");
-  s.finish(2);
-  world.pillars.push_back(read);
-}
-
-void readBoard(Statement& s, World& world) {
-  Board read;
-  read.wall = wallOf(s, world);
-  s.number("at_m", read.at_m, {0, 1e4}, "");
-  s.number("width_m", read.width_m, {0.05, 20}, "");
-  s.number("bottom_m", read.bottom_m, {0.02, 10}, "");
-  s.number("height_m", read.height_m, {0.05, 10}, "");
-  s.number("thickness_m", read.thickness_m, {0.002, 0.5}, "");
-  read.material = materialOf(s, world, "material", "cork");
-  s.finish(0);
-  onWallAt(s, world, read.wall, read.at_m, read.width_m);
-  world.boards.push_back(read);
-}
-
 void readLamp(Statement& s, World& world) {
   Lamp read;
   read.centre = s.point(0, "the centre");
@@ -214,26 +147,6 @@ void readLamp(Statement& s, World& world) {
   s.number("brightness", read.brightness, {0, 10}, "");
   s.finish(2);
   world.lamps.push_back(read);
-}
-
-void readWalker(Statement& s, World& world) {
-  Walker read;
-  const std::size_t points = s.wordCount() / 2;
-  for (std::size_t i = 0; i < points; ++i) read.waypoints.push_back(s.point(2 * i, "a waypoint"));
-  s.number("speed_m_per_s", read.speed_m_per_s, {0, 5}, "");
-  s.number("phase_s", read.phase_s, {0, 3600}, "");
-  s.flag("round", read.round, "");
-  s.number("height_m", read.height_m, {0.5, 2.5}, "");
-  s.triple("clothes", read.clothes, {0, 255});
-  s.triple("trousers", read.trousers, {0, 255});
-  s.finish(2 * points);
-  if (points < 2) s.fail("needs two waypoints or more, X1 Y1 X2 Y2 ...");
-  for (std::size_t i = 1; i < points; ++i) {
-    if ((read.waypoints[i] - read.waypoints[i - 1]).norm() < 0.01) {
-      s.fail("two waypoints in the same place; remove one");
-    }
-  }
-  world.walkers.push_back(read);
 }
 
 void readFloor(Statement& s, World& world) {

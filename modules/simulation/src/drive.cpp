@@ -23,12 +23,14 @@ struct Piece {
   double turn = 0.0;  ///< on the spot
   double turn_rate = 0.0;
   double wait_s = 0.0;
+  std::size_t step = 0;  ///< of the route
 
   bool drives() const { return length_m > 0.0; }
 };
 
-[[noreturn]] void fail(const std::string& what, const Eigen::Vector2d& p) {
-  throw Error("route: " + what + " at " + formatFixed(p.x(), 2) + " " + formatFixed(p.y(), 2),
+[[noreturn]] void fail(const RouteStep& step, const std::string& what) {
+  throw Error((step.where.empty() ? "route" : step.where) + ": drive " +
+                  formatFixed(step.to.x(), 2) + " " + formatFixed(step.to.y(), 2) + ": " + what,
               ExitCode::kUsage);
 }
 
@@ -40,14 +42,20 @@ std::vector<Piece> piecesOf(const Route& route) {
   Eigen::Vector2d p = route.start.translation();
   double heading = route.start.phi;
   double used = 0.0;  // of the leg, by the arc at its beginning
+  std::size_t current = 0;
+  const auto add = [&](Piece piece) {
+    piece.step = current;
+    pieces.push_back(piece);
+  };
   const auto turnOnTheSpot = [&](double angle, double rate) {
-    if (std::abs(angle) > 1e-6) pieces.push_back({.turn = angle, .turn_rate = rate});
+    if (std::abs(angle) > 1e-6) add({.turn = angle, .turn_rate = rate});
     heading += angle;
   };
   for (std::size_t i = 0; i < route.steps.size(); ++i) {
     const auto& step = route.steps[i];
+    current = i;
     if (step.kind == RouteStep::Kind::kWait) {
-      if (step.duration_s > 0.0) pieces.push_back({.wait_s = step.duration_s});
+      if (step.duration_s > 0.0) add({.wait_s = step.duration_s});
       continue;
     }
     if (step.kind == RouteStep::Kind::kTurn) {
@@ -55,7 +63,7 @@ std::vector<Piece> piecesOf(const Route& route) {
       continue;
     }
     const Eigen::Vector2d leg = step.to - p;
-    if (leg.norm() < 1e-3) fail("the robot is there already", step.to);
+    if (leg.norm() < 1e-3) fail(step, "the robot is there already; leave it out");
     const double direction = std::atan2(leg.y(), leg.x());
     if (used == 0.0) turnOnTheSpot(wrapAngle(direction - heading), step.turn_rate);
     double cut = 0.0, angle = 0.0;
@@ -65,16 +73,16 @@ std::vector<Piece> piecesOf(const Route& route) {
       const Eigen::Vector2d next = route.steps[i + 1].to - step.to;
       angle = wrapAngle(std::atan2(next.y(), next.x()) - direction);
       if (std::abs(angle) > radians(150.0))
-        fail("a turn of more than 150 degrees needs radius_m=0", step.to);
+        fail(step, "a turn of more than 150 degrees needs radius_m=0");
       cut = cutOf(step.radius_m, angle);
     }
     if (used + cut > leg.norm() + 1e-9)
-      fail("the arcs do not fit; use a smaller radius_m", step.to);
-    pieces.push_back({.length_m = leg.norm() - used - cut, .speed = step.speed_m_per_s});
+      fail(step, "the arcs do not fit between its ends; use a smaller radius_m");
+    add({.length_m = leg.norm() - used - cut, .speed = step.speed_m_per_s});
     if (std::abs(angle) > 1e-6) {
-      pieces.push_back({.length_m = step.radius_m * std::abs(angle),
-                        .curvature = std::copysign(1.0 / step.radius_m, angle),
-                        .speed = std::min(step.speed_m_per_s, kTurnRate * step.radius_m)});
+      add({.length_m = step.radius_m * std::abs(angle),
+           .curvature = std::copysign(1.0 / step.radius_m, angle),
+           .speed = std::min(step.speed_m_per_s, kTurnRate * step.radius_m)});
     }
     heading = direction + angle;
     used = cut;
@@ -108,19 +116,21 @@ double allowedSpeed(const std::vector<Piece>& pieces, std::size_t index, double 
 
 }  // namespace
 
-std::vector<Pose2> driveRoute(const Route& route, double rate_hz) {
+std::vector<RoutePose> driveSteps(const Route& route, double rate_hz) {
   const auto pieces = piecesOf(route);
   const int steps_per_frame = std::max(1, static_cast<int>(std::lround(kStepsPerSecond / rate_hz)));
   const double dt = 1.0 / (rate_hz * steps_per_frame);
-  std::vector<Pose2> poses = {route.start};
+  std::vector<RoutePose> poses = {{route.start, 0}};
   Pose2 pose = route.start;  // at the beginning of the piece
   double speed = 0.0;
   int step = 0;
+  std::size_t current = 0;
   const auto tick = [&](const Pose2& now) {
-    if (++step % steps_per_frame == 0) poses.push_back(now);
+    if (++step % steps_per_frame == 0) poses.push_back({now, current});
   };
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     const Piece& piece = pieces[i];
+    current = piece.step;
     double done = 0.0;
     if (piece.drives()) {
       while (done < piece.length_m) {
@@ -140,6 +150,12 @@ std::vector<Pose2> driveRoute(const Route& route, double rate_hz) {
       pose.phi = wrapAngle(pose.phi + piece.turn);
     }
   }
+  return poses;
+}
+
+std::vector<Pose2> driveRoute(const Route& route, double rate_hz) {
+  std::vector<Pose2> poses;
+  for (const auto& at : driveSteps(route, rate_hz)) poses.push_back(at.pose);
   return poses;
 }
 

@@ -9,8 +9,9 @@
 
 namespace colonnade {
 
-/// How brightly lamps light the surfaces: cosine law with the square of the distance, walls cast
-/// shadows in plan, corners are darker (ambient occlusion). 1 = a material's own colour.
+/// How brightly lamps light the surfaces: cosine law with the square of the distance, what stands
+/// on the floor casts shadows, corners and the floor under tables are darker (ambient occlusion).
+/// 1 = a material's own colour.
 class Light {
  public:
   Light(const World& world, const Building& building);
@@ -18,11 +19,22 @@ class Light {
   double brightness(const Eigen::Vector3d& p_world, const Eigen::Vector3d& normal) const;
 
  private:
-  bool blocked(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const;
-  double openness(const Eigen::Vector3d& p_world, const Eigen::Vector3d& normal) const;
+  /// A lamp with what stands within its reach.
+  struct LitPart {
+    Lamp lamp;
+    std::vector<FloorLine> around;
+  };
 
-  std::vector<Lamp> lamps_;
-  std::vector<FloorLine> outlines_;
+  bool blocked(const Eigen::Vector3d& p_world, const LitPart& part) const;
+  double openness(const Eigen::Vector3d& p_world, const Eigen::Vector3d& normal) const;
+  const std::vector<FloorLine>& near(const Eigen::Vector2d& p) const;
+
+  std::vector<LitPart> parts_;
+  std::vector<Obstacle> covers_;                ///< table tops and seats
+  std::vector<std::vector<FloorLine>> places_;  ///< outlines near each square metre, row by row
+  Eigen::Vector2d low_;
+  int columns_ = 0;
+  int rows_ = 0;
   double ceiling_m_;
 };
 

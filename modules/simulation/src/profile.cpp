@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "colonnade/base/error.hpp"
+#include "colonnade/base/text.hpp"
 
 namespace colonnade {
 namespace {
@@ -19,6 +20,8 @@ struct Feature {
   std::vector<Eigen::Vector2d> outline;  ///< k points, k - 1 pieces
   std::vector<std::size_t> materials;    ///< of the pieces
   double height_m = 0.0;
+  std::string what;
+  bool through = false;  ///< the middle piece is a gap
 };
 
 Feature featureOf(const Pilaster& pilaster, const Wall& wall) {
@@ -29,7 +32,8 @@ Feature featureOf(const Pilaster& pilaster, const Wall& wall) {
           b,
           {{a, 0}, {a, d}, {b, d}, {b, 0}},
           std::vector<std::size_t>(3, pilaster.material),
-          wall.height_m};
+          wall.height_m,
+          "the pilaster of " + pilaster.where};
 }
 
 Feature featureOf(const Door& door) {
@@ -61,6 +65,8 @@ Feature featureOf(const Door& door) {
   feature.begin = feature.outline.front().x();
   feature.end = feature.outline.back().x();
   feature.height_m = door.height_m;
+  feature.what = "the door of " + door.where;
+  feature.through = door.through;
   return feature;
 }
 
@@ -85,6 +91,7 @@ Profile wallProfile(const World& world, std::size_t wall_index) {
   };
   Profile profile;
   double s = 0.0;
+  std::string before;
   const auto plainUntil = [&](double end) {
     if (end - s > 1e-9) {
       profile.pieces.push_back(
@@ -93,8 +100,9 @@ Profile wallProfile(const World& world, std::size_t wall_index) {
   };
   for (const auto& feature : features) {
     if (feature.begin < s - 1e-9) {
-      throw Error("wall " + wall.name + ": doors and pilasters overlap near " +
-                      std::to_string(feature.begin) + " m from its start; move one of them",
+      throw Error(before.substr(before.rfind(' ') + 1) + ": " + before + " and " + feature.what +
+                      " overlap at " + formatFixed(feature.begin, 2) + " m of wall " + wall.name +
+                      "; move one of them",
                   ExitCode::kUsage);
     }
     plainUntil(feature.begin);
@@ -102,28 +110,14 @@ Profile wallProfile(const World& world, std::size_t wall_index) {
     const std::size_t last = feature.materials.size();  // index of the last outline point
     for (std::size_t i = 0; i < last; ++i) {
       profile.pieces.push_back({place(feature.outline[i]), place(feature.outline[i + 1]),
-                                feature.height_m, feature.materials[i], false});
+                                feature.height_m, feature.materials[i], false,
+                                feature.through && 2 * i + 1 == last});
       if (i < last - i) profile.partners.emplace_back(first + i, first + last - i);
     }
     s = feature.end;
+    before = feature.what;
   }
   plainUntil(wall.length());
-  return profile;
-}
-
-Profile pillarProfile(const Pillar& pillar) {
-  const Eigen::Vector2d along(std::cos(pillar.turn), std::sin(pillar.turn));
-  const Eigen::Vector2d left(-along.y(), along.x());
-  const Eigen::Vector2d x = 0.5 * pillar.size.x() * along;
-  const Eigen::Vector2d y = 0.5 * pillar.size.y() * left;
-  const std::array<Eigen::Vector2d, 4> corners = {pillar.centre - x - y, pillar.centre - x + y,
-                                                  pillar.centre + x + y, pillar.centre + x - y};
-  Profile profile;
-  for (std::size_t i = 0; i < 4; ++i) {
-    profile.pieces.push_back(
-        {corners[i], corners[(i + 1) % 4], pillar.height_m, pillar.material, false});
-  }
-  profile.partners = {{0, 1}, {2, 3}};
   return profile;
 }
 

@@ -17,6 +17,7 @@ struct ProfilePiece {
   double height_m = 0.0;
   std::size_t material = 0;
   bool skirting = false;
+  bool gap = false;  ///< nothing stands here: the middle of an opening
 };
 
 /// The outline of a wall in plan with everything that stands out of it or is let into it, in the
@@ -28,10 +29,7 @@ struct Profile {
   std::vector<std::pair<std::size_t, std::size_t>> partners;
 };
 
-/// Throws Error when doors and pilasters overlap.
+/// Throws Error (kUsage) when doors and pilasters overlap.
 Profile wallProfile(const World& world, std::size_t wall);
-
-/// The outline of a free-standing pillar, clockwise: its outside is on the left.
-Profile pillarProfile(const Pillar& pillar);
 
 }  // namespace colonnade

@@ -9,6 +9,7 @@ void readStart(Statement& s, World& world) {
   world.route.start = {p.x(), p.y(), 0.0};
   s.angle("heading_deg", world.route.start.phi, {-180, 180}, "");
   s.finish(2);
+  world.route.where = s.where();
 }
 
 void readDrive(Statement& s, World& world) {
@@ -17,7 +18,13 @@ void readDrive(Statement& s, World& world) {
   s.number("speed_m_per_s", read.speed_m_per_s, {0.01, 10}, "");
   s.number("radius_m", read.radius_m, {0, 100}, "");
   s.finish(2);
+  read.where = s.where();
   world.route.steps.push_back(read);
+}
+
+void readRobot(Statement& s, World& world) {
+  s.number("radius_m", world.route.robot_radius_m, {0, 5}, "");
+  s.finish(0);
 }
 
 void readTurn(Statement& s, World& world) {
@@ -26,6 +33,7 @@ void readTurn(Statement& s, World& world) {
   read.angle = radians(s.numberWord(0, "the angle in degrees"));
   s.angle("rate_deg_per_s", read.turn_rate, {1, 720}, "");
   s.finish(1);
+  read.where = s.where();
   world.route.steps.push_back(read);
 }
 
@@ -35,6 +43,7 @@ void readWait(Statement& s, World& world) {
   read.duration_s = s.numberWord(0, "the seconds");
   if (read.duration_s < 0.0 || read.duration_s > 3600.0) s.fail("waits 0 to 3600 s");
   s.finish(1);
+  read.where = s.where();
   world.route.steps.push_back(read);
 }
 

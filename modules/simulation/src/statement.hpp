@@ -20,6 +20,7 @@ class Statement : public OptionVisitor {
   Statement(const std::string& line, std::string where);
 
   const std::string& keyword() const { return keyword_; }
+  const std::string& where() const { return where_; }  ///< file:line
   std::size_t wordCount() const { return words_.size(); }
 
   const std::string& word(std::size_t index, const char* meaning) const;

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "colonnade/simulation/world.hpp"
@@ -41,6 +42,15 @@ struct FloorLine {
   Eigen::Vector2d a;
   Eigen::Vector2d b;
   int hallway = -1;
+  double height_m = 0.0;  ///< of what stands there
+};
+
+/// What a robot can run into, in plan.
+struct Obstacle {
+  std::string name;  ///< such as "wall south"
+  std::vector<Eigen::Vector2d> outline;
+  bool solid = false;     ///< the outline is closed: the last point meets the first
+  double bottom_m = 0.0;  ///< above 0: a table top
 };
 
 /// What a world looks like: everything that is drawn, and everything that can be a landmark.
@@ -49,7 +59,9 @@ struct Building {
   std::vector<VerticalEdge> edges;
   std::vector<FloorLine> floor_lines;
   std::vector<FloorLine> outline;  ///< as floor_lines, with the narrow pieces
-  Eigen::Vector2d low;             ///< bounding box on the floor
+  std::vector<FloorLine> gaps;     ///< openings one can drive through
+  std::vector<Obstacle> obstacles;
+  Eigen::Vector2d low;  ///< bounding box on the floor
   Eigen::Vector2d high;
   double ceiling_m = 0.0;
 };

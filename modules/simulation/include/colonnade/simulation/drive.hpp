@@ -14,4 +14,12 @@ namespace colonnade {
 /// between its neighbours.
 std::vector<Pose2> driveRoute(const Route& route, double rate_hz);
 
+struct RoutePose {
+  Pose2 pose;            ///< T_world_robot
+  std::size_t step = 0;  ///< of the route, that brought the robot there
+};
+
+/// The same, each pose with the step of the route that it belongs to.
+std::vector<RoutePose> driveSteps(const Route& route, double rate_hz);
+
 }  // namespace colonnade

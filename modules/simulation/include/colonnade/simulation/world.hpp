@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,6 +33,8 @@ struct Material {
   double opacity = 0.3;  ///< of glass: 0 nothing to see, 1 nothing to see behind
 };
 
+// Every thing in a world knows `where` it was written, as file:line, for errors.
+
 /// A straight wall from a to b. Free space lies on its left. Metres.
 struct Wall {
   std::string name;
@@ -39,15 +42,27 @@ struct Wall {
   Eigen::Vector2d b = Eigen::Vector2d::Zero();
   double height_m = 2.6;
   std::size_t material = 0;
-  double skirting_m = 0.10;  ///< painted on the wall, 0 = none
+  double skirting_m = 0.10;     ///< height of the skirting board, 0 = none
+  double skirting_out_m = 0.0;  ///< how far it stands out, 0 = painted
   std::size_t skirting_material = 0;
   int hallway = -1;  ///< which hallway the wall belongs to, -1 = none
+  std::string where = {};
 
   double length() const { return (b - a).norm(); }
 };
 
+/// The leaf of a door that stands open, seen from the wall of the door: it turns about one side of
+/// the opening into what is behind.
+struct OpenLeaf {
+  double angle = radians(85.0);  ///< 0 = shut
+  bool hinge_left = false;       ///< seen from this side of the wall
+  double depth_m = 0.0;          ///< of the hinge behind the face of the wall
+};
+
 /// A door in a wall: an opening with a leaf set back by `recess_m` and a frame of `frame_m` width
 /// around it that stands out by `protrusion_m`. `at_m` is the middle, from the wall's start.
+/// A door that leads into the wall behind is two doors, one in either wall, each as deep as half
+/// the distance of the walls.
 struct Door {
   std::size_t wall = 0;
   double at_m = 0.0;
@@ -58,6 +73,9 @@ struct Door {
   double protrusion_m = 0.02;
   std::size_t material = 0;
   std::size_t frame_material = 0;
+  bool through = false;  ///< no leaf in the opening: it leads to the other door behind
+  std::optional<OpenLeaf> leaf = {};
+  std::string where = {};
 };
 
 /// A half pillar that stands out of a wall over its whole height.
@@ -67,15 +85,30 @@ struct Pilaster {
   double width_m = 0.4;
   double depth_m = 0.2;
   std::size_t material = 0;
+  std::string where = {};
 };
 
-/// A free-standing square pillar over the whole height.
+/// A free-standing pillar over the whole height.
 struct Pillar {
   Eigen::Vector2d centre = Eigen::Vector2d::Zero();
   Eigen::Vector2d size = {0.4, 0.4};
   double turn = 0.0;
   double height_m = 2.6;
   std::size_t material = 0;
+  bool round = false;  ///< of diameter size.x()
+  std::string where = {};
+};
+
+/// A piece of furniture: a table or chair on four legs, a cabinet or bin that stands on the floor.
+struct Furniture {
+  enum class Kind { kTable, kChair, kCabinet, kBin } kind = Kind::kTable;
+  Eigen::Vector2d centre = Eigen::Vector2d::Zero();
+  Eigen::Vector2d size = {1.2, 0.7};
+  double height_m = 0.74;
+  double turn = 0.0;
+  std::size_t material = 0;
+  std::size_t leg_material = 0;
+  std::string where = {};
 };
 
 /// A notice board on a wall. Its edges are vertical but end above the floor: no landmark.
@@ -99,6 +132,7 @@ struct Walker {
   double height_m = 1.75;
   Eigen::Vector3d clothes = {96, 70, 74};  ///< red, green, blue, 0 to 255
   Eigen::Vector3d trousers = {52, 56, 70};
+  std::string where = {};
 
   double distanceAt(double time_s) const { return speed_m_per_s * (time_s + phase_s); }
   /// T_world_walker: x is forward, the origin on the floor. Time since the robot's start.
@@ -120,11 +154,14 @@ struct RouteStep {
   double angle = 0.0;     ///< turn: counter-clockwise
   double turn_rate = radians(45.0);
   double duration_s = 0.0;  ///< wait
+  std::string where = {};
 };
 
 struct Route {
   Pose2 start;
-  std::vector<RouteStep> steps;
+  std::vector<RouteStep> steps;  ///< repetitions written out
+  double robot_radius_m = 0.25;  ///< the robot keeps so far from everything
+  std::string where = {};        ///< of the start
 };
 
 /// A building, a robot in it and what its sensors do.
@@ -135,6 +172,7 @@ struct World {
   std::vector<Door> doors;
   std::vector<Pilaster> pilasters;
   std::vector<Pillar> pillars;
+  std::vector<Furniture> furniture;
   std::vector<Board> boards;
   std::vector<Lamp> lamps;
   std::vector<Walker> walkers;
@@ -148,12 +186,13 @@ struct World {
   OdometryOptions odometry;
 };
 
-/// Reads a world; the format is described in modules/simulation/README.md. Throws Error (kUsage)
-/// as "file:line: what is wrong, what would be right".
-/// `amendments` are further statements, read after the file, such as "camera rate_hz=5".
+/// Reads a world and checks it (world_check.hpp); the format is described in
+/// modules/simulation/README.md. Throws Error (kUsage) as "file:line: what is wrong, what would be
+/// right". `amendments` are further statements, read after the file, such as "camera rate_hz=5".
 World readWorld(const std::filesystem::path& path, const std::vector<std::string>& amendments = {});
 
-/// The same from text; `name` stands for the file in errors.
-World parseWorld(std::string_view text, const std::string& name);
+/// The same from text, without the checks; `name` stands for the file in errors.
+World parseWorld(std::string_view text, const std::string& name,
+                 const std::vector<std::string>& amendments = {});
 
 }  // namespace colonnade
