@@ -23,6 +23,7 @@ constexpr Verb kVerbs[] = {
     {"detect", "What the detectors see, frame by frame: overlays and a table",
      colonnade::addDetect},
     {"evaluate", "A trajectory against ground truth", colonnade::addEvaluate},
+    {"baseline", "The same log through one of MRPT's own methods", colonnade::addBaseline},
 };
 
 /// One line on stderr, so that scripts and people see the same.

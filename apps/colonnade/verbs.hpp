@@ -19,5 +19,6 @@ Action addInspect(CLI::App& verb);
 Action addImport(CLI::App& verb);
 Action addSimulate(CLI::App& verb);
 Action addEvaluate(CLI::App& verb);
+Action addBaseline(CLI::App& verb);
 
 }  // namespace colonnade
