@@ -1,9 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Colonnade authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "colonnade/evaluation/consistency.hpp"
+
 #include <gmock/gmock.h>
 
 #include <filesystem>
 #include <fstream>
+#include <random>
 
 #include "colonnade/base/angle.hpp"
 #include "colonnade/base/error.hpp"
@@ -73,6 +76,89 @@ TEST(Consistency, IsAbsentWithoutUsableCovariances) {
   auto elsewhere = constant(path, Eigen::Matrix3d::Identity());
   for (auto& row : elsewhere) row.stamp_s += 500.0;
   EXPECT_FALSE(evaluateTrajectory(path, path, {}, elsewhere).nees_mean);
+}
+
+/// A robot that dead-reckons with honest noise: its error and covariance grow from nothing, in the
+/// first step by a tenth of what later ones add.
+struct DeadReckoning {
+  Trajectory truth;
+  Trajectory estimate;
+  std::vector<StampedCovariance> covariances;
+};
+
+DeadReckoning deadReckoning(unsigned seed) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> noise;
+  DeadReckoning run;
+  run.truth = winding();
+  Pose2 pose = planarPart(run.truth.front().T_world_body);
+  Eigen::Matrix3d P = Eigen::Matrix3d::Zero();
+  for (std::size_t i = 0; i < run.truth.size(); ++i) {
+    if (i > 0) {
+      const Eigen::Vector3d sigma = Eigen::Vector3d::Constant(i == 1 ? 0.0004 : 0.004);
+      Pose2 step = planarPart(run.truth[i - 1].T_world_body.inverse() * run.truth[i].T_world_body);
+      step.x += sigma.x() * noise(random);
+      step.y += sigma.y() * noise(random);
+      step.phi += sigma.z() * noise(random);
+      Eigen::Matrix3d J_pose;
+      Eigen::Matrix3d J_step;
+      pose = compose(pose, step, &J_pose, &J_step);
+      P = J_pose * P * J_pose.transpose() +
+          J_step * sigma.cwiseAbs2().asDiagonal() * J_step.transpose();
+    }
+    run.estimate.push_back({run.truth[i].stamp_s, pose.toIsometry3()});
+    run.covariances.push_back({run.truth[i].stamp_s, P});
+  }
+  return run;
+}
+
+double meanNees(int late_poses, Alignment alignment = Alignment::kSe2) {
+  EvaluationOptions options;
+  options.alignment = alignment;
+  double sum = 0.0;
+  for (unsigned seed = 0; seed < 100; ++seed) {
+    const auto run = deadReckoning(seed);
+    const Trajectory truth(run.truth.begin() + late_poses, run.truth.end());
+    sum += evaluateTrajectory(run.estimate, truth, options, run.covariances).nees_mean.value();
+  }
+  return sum / 100.0;
+}
+
+TEST(Consistency, OfManyHonestRunsLiesInTheBand) {
+  const Band band = consistencyBand(100, 3, 0.999);
+  EXPECT_GT(meanNees(0), band.low);
+  EXPECT_LT(meanNees(0), band.high);
+}
+
+TEST(Consistency, OfTruthThatStartsALittleLateIsStillRight) {
+  // The rule promises a fifth.
+  EXPECT_NEAR(meanNees(1), meanNees(0), 0.2 * meanNees(0));
+  EXPECT_NE(meanNees(1), meanNees(0));
+}
+
+TEST(Consistency, IsRefusedWithAReasonWhenTruthStartsTooLate) {
+  const auto run = deadReckoning(1);
+  const Trajectory truth(run.truth.begin() + 60, run.truth.end());
+  const auto score = evaluateTrajectory(run.estimate, truth, {}, run.covariances);
+  EXPECT_FALSE(score.nees_mean);
+  EXPECT_EQ(score.nees_poses, 0U);
+  EXPECT_THAT(score.nees_refused, HasSubstr("6.00 s after its beginning"));
+  EXPECT_THAT(score.nees_refused, HasSubstr("--align none"));
+}
+
+TEST(Consistency, NeedsNoAnchorWhereBothAreInOneWorld) {
+  // The poses of late truth are the later, surer ones of the same honest runs.
+  const Band band = consistencyBand(100, 3, 0.999);
+  EXPECT_GT(meanNees(60, Alignment::kNone), band.low);
+  EXPECT_LT(meanNees(60, Alignment::kNone), band.high);
+}
+
+TEST(Consistency, IsRefusedWhereTheFirstCovarianceIsMissing) {
+  auto run = deadReckoning(1);
+  run.covariances.erase(run.covariances.begin());
+  const auto score = evaluateTrajectory(run.estimate, run.truth, {}, run.covariances);
+  EXPECT_FALSE(score.nees_mean);
+  EXPECT_THAT(score.nees_refused, HasSubstr("no covariance at 0.000 s"));
 }
 
 TEST(CovarianceCsv, ReadsBackWhatItWrote) {

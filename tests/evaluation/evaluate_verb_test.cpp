@@ -11,6 +11,7 @@
 
 #include "colonnade/evaluation/covariance_csv.hpp"
 #include "shared_data.hpp"
+#include "temporary_folder.hpp"
 #include "test_paths.hpp"
 
 namespace colonnade {
@@ -24,18 +25,13 @@ struct Outcome {
   std::string text;
 };
 
-class EvaluateVerb : public ::testing::Test {
+class EvaluateVerb : public FolderTest {
  protected:
   void SetUp() override {
     if (!std::filesystem::exists(program())) GTEST_SKIP() << program() << " is not built";
-    std::string name = (std::filesystem::temp_directory_path() / "colonnade_eval_XXXXXX").string();
-    ASSERT_TRUE(::mkdtemp(name.data()));
-    folder_ = name;
+    FolderTest::SetUp();
     writeTum(folder_ / "truth.tum", winding());
     writeTum(folder_ / "estimate.tum", noisy(winding()));
-  }
-  void TearDown() override {
-    if (!folder_.empty()) std::filesystem::remove_all(folder_);
   }
 
   Outcome run(const std::string& arguments) const {
@@ -48,8 +44,6 @@ class EvaluateVerb : public ::testing::Test {
     outcome.code = WEXITSTATUS(::pclose(pipe));
     return outcome;
   }
-
-  std::filesystem::path folder_;
 };
 
 TEST_F(EvaluateVerb, PrintsATableThatNamesItsAlignment) {
@@ -77,6 +71,7 @@ TEST_F(EvaluateVerb, ScoresConsistencyWithCovariances) {
   std::vector<StampedCovariance> rows;
   for (const auto& pose : winding())
     rows.push_back({pose.stamp_s, Eigen::Matrix3d::Identity() * 1e-3});
+  rows.front().covariance.setZero();
   writeCovarianceCsv(folder_ / "covariance.csv", rows);
   const auto outcome =
       run("estimate.tum --ground-truth truth.tum --covariance covariance.csv --json");

@@ -8,6 +8,7 @@
 
 #include "colonnade/base/angle.hpp"
 #include "colonnade/base/error.hpp"
+#include "colonnade/evaluation/score_json.hpp"
 #include "test_paths.hpp"
 
 namespace colonnade {
@@ -176,6 +177,21 @@ TEST(TrajectoryScore, TakesSparseTruthAtItsOwnStamps) {
   const auto score = evaluateTrajectory(straight(), truth);
   EXPECT_EQ(score.matched, truth.size());
   EXPECT_NE(score.rpeOver(2.0), nullptr);
+}
+
+TEST(TrajectoryScore, SaysHowFarTheTimeSpansAgree) {
+  // Truth from 2 to 25 s, the estimate from 0 to 20 s.
+  auto truth = straight();
+  for (int i = 201; i <= 250; ++i) truth.push_back(at(0.1 * i, 0.1 * i, 0.0, 0.0));
+  truth.erase(truth.begin(), truth.begin() + 20);
+  const auto span = evaluateTrajectory(straight(), truth).span;
+  EXPECT_NEAR(span.truth_starts_after_s, 2.0, 1e-9);
+  EXPECT_NEAR(span.truth_ends_before_s, -5.0, 1e-9);
+  EXPECT_NEAR(span.estimate_in_truth, 0.9, 1e-9);
+  EXPECT_NEAR(span.truth_in_estimate, 18.0 / 23.0, 1e-9);
+  EXPECT_EQ(toText(span),
+            "truth covers 90 % of the estimate (begins 2.00 s after it, ends 5.00 s after it); the "
+            "estimate covers 78 % of the truth");
 }
 
 TEST(TrajectoryScore, RefusesWhatDoesNotOverlapAndNamesBothSpans) {

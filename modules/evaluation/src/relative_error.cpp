@@ -88,6 +88,31 @@ void scoreOneSecond(const std::vector<PosePair>& pairs, const Path& path, Trajec
   score.rpe_1s_deg = degrees(std::sqrt(sum_angle / count));
 }
 
+/// The pose from `begin` on whose stamp is nearest, the earlier one when equal.
+std::size_t nearest(const std::vector<PosePair>& pairs, std::size_t begin, double stamp_s) {
+  std::size_t j = begin;
+  while (j + 1 < pairs.size() &&
+         std::abs(pairs[j + 1].stamp_s - stamp_s) < std::abs(pairs[j].stamp_s - stamp_s))
+    ++j;
+  return j;
+}
+
+/// The fixed-delta figure of the benchmark's program: (P_j^-1 P_i)^-1 (Q_j^-1 Q_i).
+void scoreOneSecondAsTum(const std::vector<PosePair>& pairs, const Path& path,
+                         TrajectoryScore& score) {
+  double sum = 0.0;
+  double count = 0.0;
+  std::size_t j = 0;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    j = nearest(pairs, std::max(i, j), pairs[i].stamp_s + kPeriod);
+    const double off = std::abs(pairs[j].stamp_s - pairs[i].stamp_s - kPeriod);
+    if (j + 1 == pairs.size() || off > kPeriodSlack || path.run[i] != path.run[j]) continue;
+    sum += std::pow(motionError(pairs[j], pairs[i]).distance_m, 2);
+    count += 1.0;
+  }
+  if (count > 0.0) score.rpe_1s_tum_m = std::sqrt(sum / count);
+}
+
 }  // namespace
 
 void scoreRelativeErrors(const std::vector<PosePair>& pairs, const EvaluationOptions& options,
@@ -99,6 +124,7 @@ void scoreRelativeErrors(const std::vector<PosePair>& pairs, const EvaluationOpt
     if (error.pieces > 0) score.rpe.push_back(error);
   }
   scoreOneSecond(pairs, path, score);
+  scoreOneSecondAsTum(pairs, path, score);
   if (score.path_length_m > 0.0)
     score.end_drift_percent =
         100.0 * motionError(pairs.front(), pairs.back()).distance_m / score.path_length_m;

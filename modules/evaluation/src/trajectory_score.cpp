@@ -2,20 +2,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "colonnade/evaluation/trajectory_score.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
 #include "alignment.hpp"
 #include "colonnade/base/angle.hpp"
 #include "matching.hpp"
+#include "pose_consistency.hpp"
 #include "relative_error.hpp"
 
 namespace colonnade {
 namespace {
-
-constexpr double kChiSquared3At95 = 7.815;
-constexpr double kSameRow_s = 1e-5;  ///< the stamps of files carry microseconds
 
 void scoreAbsoluteErrors(const std::vector<PosePair>& pairs, TrajectoryScore& score) {
   double sum_position = 0.0;
@@ -42,33 +39,19 @@ double coveredTime(const std::vector<PosePair>& pairs, double max_step_s) {
   return covered;
 }
 
-void scoreConsistency(const std::vector<PosePair>& pairs,
-                      const std::vector<StampedCovariance>& covariances, TrajectoryScore& score) {
-  const Eigen::Isometry3d T_estimate_truth =
-      pairs.front().T_estimate_body * pairs.front().T_truth_body.inverse();
-  double sum = 0.0;
-  double within = 0.0;
-  auto row = covariances.begin();
-  for (const auto& pair : pairs) {
-    while (row != covariances.end() && row->stamp_s < pair.stamp_s - kSameRow_s) ++row;
-    if (row == covariances.end()) break;
-    if (row->stamp_s > pair.stamp_s + kSameRow_s) continue;
-    const Eigen::LLT<Eigen::Matrix3d> factor(row->covariance);
-    if (factor.info() != Eigen::Success || factor.matrixLLT()(2, 2) <= 0.0) continue;
-    const Pose2 truth = planarPart(T_estimate_truth * pair.T_truth_body);
-    const Pose2 estimate = planarPart(pair.T_estimate_body);
-    Eigen::Vector3d error = estimate.vector() - truth.vector();
-    error.z() = wrapAngle(error.z());
-    const double nees = factor.matrixL().solve(error).squaredNorm();
-    if (!std::isfinite(nees)) continue;
-    sum += nees;
-    within += nees <= kChiSquared3At95 ? 1.0 : 0.0;
-    ++score.nees_poses;
-  }
-  if (score.nees_poses == 0) return;
-  const auto count = static_cast<double>(score.nees_poses);
-  score.nees_mean = sum / count / 3.0;
-  score.nees_share_within_95 = within / count;
+SpanScore compareSpans(const Trajectory& estimate, const Trajectory& truth) {
+  SpanScore span;
+  const double begin = std::max(estimate.front().stamp_s, truth.front().stamp_s);
+  const double end = std::min(estimate.back().stamp_s, truth.back().stamp_s);
+  const auto share = [&](const Trajectory& whole) {
+    const double length = whole.back().stamp_s - whole.front().stamp_s;
+    return length > 0.0 ? std::max(0.0, end - begin) / length : 1.0;
+  };
+  span.truth_starts_after_s = truth.front().stamp_s - estimate.front().stamp_s;
+  span.truth_ends_before_s = estimate.back().stamp_s - truth.back().stamp_s;
+  span.estimate_in_truth = share(estimate);
+  span.truth_in_estimate = share(truth);
+  return span;
 }
 
 }  // namespace
@@ -93,6 +76,7 @@ TrajectoryScore evaluateTrajectory(const Trajectory& estimate, const Trajectory&
   scoreRelativeErrors(pairs, options, score);
   const double span = truth.back().stamp_s - truth.front().stamp_s;
   score.coverage = span > 0.0 ? std::min(1.0, coveredTime(pairs, options.max_step_s) / span) : 1.0;
+  score.span = compareSpans(estimate, truth);
   scoreConsistency(pairs, covariances, score);
   return score;
 }

@@ -13,6 +13,9 @@ namespace colonnade {
 /// are null.
 nlohmann::ordered_json toJson(const TrajectoryScore& score);
 
+/// One sentence on how far the time spans agree.
+std::string toText(const SpanScore& span);
+
 /// A table for people, naming the alignment of every number; ends with a line break.
 std::string toText(const TrajectoryScore& score);
 

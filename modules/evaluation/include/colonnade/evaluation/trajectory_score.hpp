@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "colonnade/base/trajectory.hpp"
+#include "colonnade/evaluation/anchor.hpp"
 #include "colonnade/evaluation/covariance_csv.hpp"
 
 namespace colonnade {
@@ -45,6 +46,15 @@ struct DistanceError {
   double deg_per_m = 0.0;
 };
 
+/// Which part of the time estimate and truth have in common. Seconds; shares of a span of zero
+/// length are 1.
+struct SpanScore {
+  double truth_starts_after_s = 0.0;  ///< the estimate; negative: before it
+  double truth_ends_before_s = 0.0;   ///< the estimate; negative: after it
+  double estimate_in_truth = 1.0;     ///< share of the estimate's span the truth's span covers
+  double truth_in_estimate = 1.0;     ///< and the other way round
+};
+
 /// What a trajectory is worth. All optional numbers are absent where the data cannot tell them.
 struct TrajectoryScore {
   Alignment alignment = Alignment::kSe2;
@@ -54,9 +64,14 @@ struct TrajectoryScore {
   /// Of the rotation about the body's vertical axis, after alignment.
   double heading_rmse_deg = 0.0;
   std::vector<DistanceError> rpe;  ///< for 1, 2, 5 and 10 m; those with pieces only
-  /// Relative error over one second, root mean square, metres and degrees.
+  /// Relative error over one second, root mean square, metres and degrees (Sturm 2012, equation 1).
   std::optional<double> rpe_1s_m;
   std::optional<double> rpe_1s_deg;
+  /// The same as the benchmark's program computes it with a fixed delta of one second: it compares
+  /// the motions backwards in time, which counts a turn with the length of the motion, takes the
+  /// pose nearest to one second later, and never the last one. For comparison with published
+  /// figures only.
+  std::optional<double> rpe_1s_tum_m;
   /// Position error of the last matched pose when the first ones are laid on each other, percent of
   /// the path.
   std::optional<double> end_drift_percent;
@@ -66,6 +81,10 @@ struct TrajectoryScore {
   /// Share of poses whose e' P^-1 e lies below 7.815, the 95 % point of chi-squared with 3.
   std::optional<double> nees_share_within_95;
   std::size_t nees_poses = 0;
+  std::size_t nees_left_out = 0;  ///< poses the anchor does not serve
+  std::string nees_refused;       ///< why covariances gave no NEES; empty otherwise
+  std::optional<Anchor> anchor;   ///< what NEES is judged in; absent without covariances
+  SpanScore span;
   double coverage = 0.0;  ///< share of the truth's time span that matched poses cover
   std::size_t matched = 0;
   std::size_t estimated = 0;
@@ -78,10 +97,12 @@ struct TrajectoryScore {
 
 /// Scores an estimate. Truth is interpolated at the estimate's stamps (linear, and along the
 /// shortest rotation); stamps outside it or in a gap are not matched. With `covariances` (of x, y,
-/// phi in the estimate's world, matched by stamp) the consistency is scored too: for it alone the
-/// truth is moved so that its first matched pose is the estimate's, since the filter starts there
-/// without doubt; poses whose covariance is not positive definite, such as that first one, are left
-/// out. Throws Error when either trajectory is empty or no pose can be matched, naming both spans.
+/// phi in the estimate's world, matched by stamp) the consistency is scored too. For it alone the
+/// truth is moved so that its first matched pose is the estimate's (alignment none: it is taken as
+/// it is). A filter starts without doubt; if the truth starts late it is in doubt there, so poses
+/// the anchor does not serve are left out, and more of them than served ones refuse the NEES. Poses
+/// whose covariance is not positive definite, such as the first of a run, do not count. Throws
+/// Error when either trajectory is empty or no pose can be matched, naming both spans.
 TrajectoryScore evaluateTrajectory(const Trajectory& estimate, const Trajectory& truth,
                                    const EvaluationOptions& options = {},
                                    const std::vector<StampedCovariance>& covariances = {});
