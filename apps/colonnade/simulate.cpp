@@ -1,13 +1,19 @@
 // SPDX-FileCopyrightText: 2026 The Colonnade authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "colonnade/base/atomic_file.hpp"
+#include "colonnade/base/log_path.hpp"
 #include "colonnade/base/text.hpp"
 #include "colonnade/simulation/simulator.hpp"
+#include "colonnade/simulation/world_file.hpp"
 #include "verbs.hpp"
 
 namespace colonnade {
@@ -32,16 +38,35 @@ std::string statementOf(const std::string& setting) {
   return setting.substr(0, dot) + " " + setting.substr(dot + 1);
 }
 
+bool holds(const std::filesystem::path& path, const std::string& text) {
+  std::ifstream file(path, std::ios::binary);
+  return std::equal(std::istreambuf_iterator<char>(file), {}, text.begin(), text.end());
+}
+
+/// Where the world is kept beside its log: STEM.world. Nowhere when the world is that very file and
+/// nothing was set; never over it.
+std::filesystem::path copyPath(const SimulateArguments& arguments, bool amended) {
+  const std::string stem = logStem(arguments.log).string();
+  const std::filesystem::path path = stem + ".world";
+  std::error_code ignored;
+  if (!std::filesystem::equivalent(path, arguments.world, ignored)) return path;
+  return amended ? std::filesystem::path(stem + "_as_driven.world") : std::filesystem::path();
+}
+
 ExitCode simulateVerb(const SimulateArguments& arguments) {
   std::vector<std::string> amendments;
   for (const auto* settings : {&arguments.shorthands, &arguments.settings})
     for (const auto& setting : *settings) amendments.push_back(statementOf(setting));
-  const World world = readWorld(arguments.world, amendments);
-  if (!arguments.overwrite && std::filesystem::exists(arguments.log)) {
-    throw Error(arguments.log + " exists; choose another name or add --overwrite",
-                ExitCode::kUsage);
+  const auto loaded = loadWorld(arguments.world, amendments);
+  const auto world_copy = copyPath(arguments, !amendments.empty());
+  for (const std::filesystem::path& file : {std::filesystem::path(arguments.log), world_copy}) {
+    if (!arguments.overwrite && std::filesystem::exists(file) && !holds(file, loaded.text)) {
+      throw Error(file.string() + " exists; choose another name or add --overwrite",
+                  ExitCode::kUsage);
+    }
   }
-  const auto summary = simulate(world, arguments.log, arguments.options);
+  const auto summary = simulate(loaded.world, arguments.log, arguments.options);
+  if (!world_copy.empty()) writeFileAtomically(world_copy, loaded.text);
   std::printf("%s: %zu frames, %s s, %s m, %s MB; %zu of %zu landmarks seen\n",
               arguments.log.c_str(), summary.frames, formatFixed(summary.duration_s, 1).c_str(),
               formatFixed(summary.path_length_m, 2).c_str(),
@@ -55,7 +80,8 @@ ExitCode simulateVerb(const SimulateArguments& arguments) {
 Action addSimulate(CLI::App& verb) {
   auto arguments = std::make_shared<SimulateArguments>();
   verb.description("Drive a robot through a simulated building: a rawlog with the truth beside it");
-  verb.add_option("WORLD", arguments->world, "world file, see rawlogs/worlds")->required();
+  verb.add_option("WORLD", arguments->world, "world file, see rawlogs/worlds, or random:SEED")
+      ->required();
   verb.add_option("-o,--output", arguments->log, "rawlog to write")->required();
   verb.add_option("--seed", arguments->options.seed, "of all noise")->capture_default_str();
   const auto shorthand = [&](const char* name, const char* key, const char* meaning) {
@@ -81,6 +107,7 @@ Action addSimulate(CLI::App& verb) {
       "Examples:\n"
       "  colonnade simulate rawlogs/worlds/corridor.world -o /tmp/corridor.rawlog --seed 7\n"
       "  colonnade simulate rawlogs/worlds/corridor.world -o big.rawlog --width 640 --height 480\n"
+      "  colonnade simulate random:7 -o seven.rawlog     (its world: seven.world)\n"
       "  colonnade simulate rawlogs/worlds/corridor.world -o calm.rawlog --set odometry.scale=0");
   return [arguments] { return simulateVerb(*arguments); };
 }

@@ -3,13 +3,11 @@
 #include "colonnade/simulation/world.hpp"
 
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <sstream>
 
 #include "colonnade/base/error.hpp"
 #include "colonnade/base/text.hpp"
-#include "colonnade/simulation/world_check.hpp"
 #include "world_statements.hpp"
 
 namespace colonnade {
@@ -139,16 +137,6 @@ class WorldReader {
 };
 
 }  // namespace
-
-World readWorld(const std::filesystem::path& path, const std::vector<std::string>& amendments) {
-  std::ifstream file(path);
-  if (!file) throw Error(path.string() + ": cannot be opened", ExitCode::kUsage);
-  std::ostringstream text;
-  text << file.rdbuf();
-  World world = parseWorld(text.str(), path.string(), amendments);
-  checkWorld(world);
-  return world;
-}
 
 World parseWorld(std::string_view text, const std::string& name,
                  const std::vector<std::string>& amendments) {
