@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -154,6 +155,44 @@ TEST_F(EvaluateResults, MakesMistakesPlain) {
   EXPECT_EQ(columns.code, 1);
   EXPECT_THAT(columns.text, HasSubstr("landmarks.csv:1: column direction is missing"));
   EXPECT_EQ(run("results --ground-truth hall.rawlog --gate 0").code, 2);
+}
+
+/// The corridor of the repository, run as a user runs it. Bounds leave room for other machines: a
+/// map drawn wrongly, or matched wrongly, is far outside them.
+TEST_F(EvaluateResults, OfARealRunAreWhatThePictureShows) {
+  const auto log = sourceFolder() / "rawlogs/corridor.rawlog";
+  const std::string command = "cd '" + folder_.string() + "' && '" + program().string() +
+                              "' run '" + log.string() + "' -o map >log.txt 2>&1";
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  const auto outcome = run("map --json --ground-truth '" + log.string() + "'");
+  ASSERT_EQ(outcome.code, 0) << outcome.text;
+  const auto json = nlohmann::json::parse(outcome.text);
+  EXPECT_TRUE(json["nees_refused"].is_null());
+  const auto number = [&](const char* kind, const char* key) {
+    return json["landmarks"][kind][key].get<double>();
+  };
+  EXPECT_GT(number("pillar", "precision"), 0.75);
+  EXPECT_GT(number("pillar", "recall"), 0.45);
+  EXPECT_LT(number("pillar", "position_median_m"), 0.08);
+  EXPECT_GT(number("depth_slope", "precision"), 0.8);
+  EXPECT_GT(number("depth_slope", "recall"), 0.4);
+  EXPECT_GT(number("floor_edge", "precision"), 0.75);
+  EXPECT_GT(number("floor_edge", "length_recall"), 0.5);
+  EXPECT_LT(json["walls"]["angle_rmse_deg"].get<double>(), 2.0);
+  EXPECT_GT(json["free_area"]["precision"].get<double>(), 0.95);
+  EXPECT_GT(json["free_area"]["iou"].get<double>(), 0.7);
+
+  std::ifstream file(folder_ / "map/summary.json");
+  const auto summary = nlohmann::json::parse(file);
+  for (const char* kind : {"pillar", "floor_edge", "depth_slope"}) {
+    const auto& nis = summary["nis"][kind];
+    EXPECT_EQ(nis["mean"], summary["nis_mean"][kind]);
+    EXPECT_GE(nis["dof"].get<int>(), nis["count"].get<int>());
+    EXPECT_LE(nis["dof"].get<int>(), 2 * nis["count"].get<int>());
+    EXPECT_GT(nis["band_95"][0].get<double>(), 0.5);
+    EXPECT_LT(nis["band_95"][0].get<double>(), 1.0);
+    EXPECT_GT(nis["band_95"][1].get<double>(), 1.0);
+  }
 }
 
 }  // namespace

@@ -199,6 +199,10 @@ TEST(LandmarkScore, JudgesCovariancesByTheAnchorNotByTheAlignment) {
   const auto score = scoreLandmarks(estimate, truth, fit, wide, Anchor{});
   EXPECT_NEAR(*score[kPillar].position_rmse_m, 0.0, 1e-12);
   EXPECT_NEAR(*score[kPillar].nees_mean, 2.5, 1e-9);
+  EXPECT_TRUE(score[kPillar].improbable_ids.empty());
+  const auto far = scoreLandmarks({point(5, kPillar, 1.0, 1.7)}, truth, {}, wide, Anchor{});
+  EXPECT_NEAR(*far[kPillar].nees_mean, 3.5 * 3.5 / 2.0, 1e-9);
+  EXPECT_THAT(far[kPillar].improbable_ids, ElementsAre(LandmarkId{5}));
   // A floor edge counts across its line only: 0.2 m with sigma 0.1.
   const auto line = scoreLandmarks({edge(0, {1, -0.8}, {3, -0.8})}, building(), {}, {}, Anchor{});
   EXPECT_NEAR(*line[kFloor].nees_mean, 4.0, 1e-9);

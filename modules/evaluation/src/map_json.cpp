@@ -42,6 +42,7 @@ Json toJson(const KindScore& score, LandmarkKind kind) {
   }
   json["nees_mean"] = orNull(score.nees_mean);
   json["nees_landmarks"] = score.nees_landmarks;
+  if (kind != LandmarkKind::kFloorEdge) json["improbable_ids"] = numbers(score.improbable_ids);
   json["duplicate_ids"] = numbers(score.duplicate_ids);
   json["false_ids"] = numbers(score.false_ids);
   json["missed_truth_ids"] = numbers(score.missed_ids);
@@ -77,8 +78,12 @@ std::string errors(const KindScore& score) {
   if (score.extent_on_truth)
     parts.push_back(percent(score.extent_on_truth) + " of the extents on a true edge");
   if (score.nees_mean)
-    parts.push_back("NEES / dof " + formatFixed(*score.nees_mean, 2) + " of " +
-                    std::to_string(score.nees_landmarks));
+    parts.push_back(
+        "NEES / dof " + formatFixed(*score.nees_mean, 2) + " of " +
+        std::to_string(score.nees_landmarks) +
+        (score.improbable_ids.empty()
+             ? ""
+             : " (" + std::to_string(score.improbable_ids.size()) + " farther off than 3 sigma)"));
   return joined(parts, ", ");
 }
 

@@ -10,6 +10,8 @@
 namespace colonnade {
 namespace {
 
+constexpr double kImprobable = 11.62;  ///< 99.7 % of chi-squared with 2 degrees of freedom
+
 /// e' P^-1 e of a landmark in the estimate's world, if it may be judged there.
 std::optional<double> squaredError(const LandmarkRecord& estimate, const LandmarkRecord& truth,
                                    const Anchor& anchor) {
@@ -70,6 +72,7 @@ KindScore scorePoints(const LandmarkLists& lists, const LandmarkScoreOptions& op
     if (!squared) continue;
     nees += *squared;
     ++score.nees_landmarks;
+    if (*squared > kImprobable) score.improbable_ids.push_back(aligned[i].id);
   }
   score.duplicates = score.duplicate_ids.size();
   for (std::size_t j = 0; j < truth.size(); ++j) {

@@ -56,6 +56,9 @@ struct KindScore {
   /// Mean of e' P^-1 e over the degrees of freedom (points 2; floor edges 1, across the line).
   std::optional<double> nees_mean;
   std::size_t nees_landmarks = 0;
+  /// Points: right ones farther off than their covariance allows in 997 of 1000 cases. Something
+  /// else near a true landmark, such as the panels of a door, is often among them.
+  std::vector<LandmarkId> improbable_ids;
 };
 
 /// Walls by their floor edges, weighted by length.
