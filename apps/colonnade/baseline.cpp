@@ -38,6 +38,7 @@ struct Arguments {
   fs::path output;
   fs::path ground_truth;
   std::vector<std::string> assignments;
+  bool no_map_files = false;
 };
 
 /// Every section of a run's configuration and those of the baselines.
@@ -182,12 +183,13 @@ ExitCode run(const Arguments& arguments) {
   options.each([&](const auto& section) { writer.add(section); });
   writeFileAtomically(folder / "config.ini", writer.text());
   writeTum(folder / "trajectory.tum", record.trajectory);
-  baseline->writeMap(folder);
+  if (!arguments.no_map_files) baseline->writeMap(folder);
   if (const LandmarkMap landmarks = baseline->landmarks(); !landmarks.empty())
     writeLandmarksCsv(folder / "landmarks.csv", landmarks);
 
   Json json = summarize(arguments, record, *baseline, source.damage());
-  json["map_bytes"] = sizeOf(folder / "map.ply") + sizeOf(folder / "landmarks.csv");
+  if (!arguments.no_map_files)
+    json["map_bytes"] = sizeOf(folder / "map.ply") + sizeOf(folder / "landmarks.csv");
   std::string not_scored;
   if (!arguments.ground_truth.empty()) {
     try {
@@ -224,6 +226,8 @@ Action addBaseline(CLI::App& verb) {
   verb.add_option("--ground-truth", arguments->ground_truth, "robot poses, TUM file: adds a score");
   verb.add_option("--set", arguments->assignments, "Section.key=value, wins over the file")
       ->allow_extra_args(false);
+  verb.add_flag("--no-map-files", arguments->no_map_files,
+                "build the point map, but do not write map.ply");
   verb.footer(
       "Examples:\n"
       "  colonnade baseline kinect-3d-slam corridor.rawlog --set KinectSlam.subpixel=true\n"

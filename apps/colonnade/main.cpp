@@ -24,6 +24,8 @@ constexpr Verb kVerbs[] = {
      colonnade::addDetect},
     {"evaluate", "A trajectory against ground truth", colonnade::addEvaluate},
     {"baseline", "The same log through one of MRPT's own methods", colonnade::addBaseline},
+    {"compare", "The same log through Colonnade and MRPT's own methods, one table",
+     colonnade::addCompare},
 };
 
 /// One line on stderr, so that scripts and people see the same.

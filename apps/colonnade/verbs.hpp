@@ -20,5 +20,6 @@ Action addImport(CLI::App& verb);
 Action addSimulate(CLI::App& verb);
 Action addEvaluate(CLI::App& verb);
 Action addBaseline(CLI::App& verb);
+Action addCompare(CLI::App& verb);
 
 }  // namespace colonnade

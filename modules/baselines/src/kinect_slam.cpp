@@ -70,6 +70,8 @@ BaselineStep KinectSlam::step(const Frame& frame) {
       for (const auto& [id, p_now] : points)
         if (const auto key = key_points_.find(id); key != key_points_.end())
           pairs.push_back({key->second, p_now});
+      matched_ += pairs.size();
+      ++matched_frames_;
       if (const auto T_key_now = registerPoints(pairs)) {
         T_key_now_ = *T_key_now;
         lost_in_a_row_ = 0;
@@ -94,6 +96,9 @@ BaselineStep KinectSlam::step(const Frame& frame) {
 
 std::map<std::string, double> KinectSlam::figures() const {
   return {{"key_frames", static_cast<double>(key_frames_)},
+          {"pairs_per_frame", matched_frames_ > 0 ? static_cast<double>(matched_) /
+                                                        static_cast<double>(matched_frames_)
+                                                  : 0.0},
           {"reanchored", static_cast<double>(reanchored_)},
           {"map_points", static_cast<double>(map_.size())}};
 }

@@ -42,6 +42,8 @@ class KinectSlam : public Baseline {
   int lost_in_a_row_ = 0;
   std::size_t key_frames_ = 0;
   std::size_t reanchored_ = 0;
+  std::size_t matched_ = 0;
+  std::size_t matched_frames_ = 0;
 };
 
 }  // namespace colonnade
