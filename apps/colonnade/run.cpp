@@ -166,7 +166,7 @@ Action addRun(CLI::App& verb) {
   verb.add_option("-c,--config", arguments->config,
                   "INI file; what it does not name stays default");
   verb.add_option("-o,--output", arguments->output, "new folder; default: LOG's stem + _results");
-  verb.add_option("--backend", arguments->backend, "image stage")->capture_default_str();
+  verb.add_option("--backend", arguments->backend, "image stage: opencv, fixed")->capture_default_str();
   verb.add_option("--ground-truth", arguments->ground_truth, "robot poses, TUM file: adds a score");
   verb.add_option("--set", arguments->assignments, "Section.key=value, wins over the file")
       ->allow_extra_args(false);

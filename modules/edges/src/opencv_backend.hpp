@@ -11,9 +11,10 @@ namespace colonnade {
 class OpencvBackend : public EdgeLineBackend {
  public:
   explicit OpencvBackend(const EdgeOptions& options) : options_(options) {}
-  EdgeLines extract(const cv::Mat& gray) override;
 
  private:
+  EdgeLines process(const cv::Mat& gray, const EdgeView& view) override;
+
   EdgeOptions options_;
 };
 

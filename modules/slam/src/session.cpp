@@ -22,6 +22,11 @@ class Stopwatch {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
+EdgeView viewOf(const Frame& frame) {
+  const PinholeCamera& camera = frame.camera;
+  return {camera.fx_px, camera.fy_px, camera.cx_px, camera.cy_px, frame.T_robot_camera.linear()};
+}
+
 /// Books what the update used, and counts what it did not.
 void book(const Frame& frame, const StepReport& report, const std::vector<bool>& used,
           EkfSlam& filter, LandmarkBook& landmarks) {
@@ -89,7 +94,7 @@ void Session::run(FrameSource& source, const Observer& observer) {
     report.motion = motion.increment(*frame, mounting.uncertainty());
     report.times_ms.motion = watch.lap();
 
-    report.edges = backend->extract(frame->gray);
+    report.edges = backend->extract(frame->gray, viewOf(*frame));
     report.times_ms.edges = watch.lap();
 
     report.detections = detectors.detect(*frame, report.edges);

@@ -8,13 +8,15 @@
 #include <vector>
 
 #include "colonnade/edges/edge_options.hpp"
+#include "colonnade/edges/edge_view.hpp"
 
 namespace colonnade {
 
 enum class LineClass { kVertical, kInclined };
 
 /// A line of the Hough transform: u cos(theta) + v sin(theta) = rho, pixels from the image's first
-/// pixel; theta = theta_index degrees (thesis 2015, section 2.2, figure 11). A seed: detectors refit it.
+/// pixel; theta = theta_index degrees (thesis 2015, section 2.2, figure 11). A seed: detectors
+/// refit it.
 struct HoughLine {
   int theta_index = 0;  ///< whole degrees, 0 to 179
   int rho_bin = 0;      ///< whole pixels, may be negative
@@ -34,8 +36,13 @@ struct EdgeLines {
 class EdgeLineBackend {
  public:
   virtual ~EdgeLineBackend() = default;
-  /// gray: CV_8UC1. An empty image gives no edges and no lines.
-  virtual EdgeLines extract(const cv::Mat& gray) = 0;
+  /// gray: CV_8UC1, else Error. An empty image gives no edges and no lines. A known view lets a
+  /// backend leave out lines that can be neither vertical in space nor on the floor.
+  EdgeLines extract(const cv::Mat& gray, const EdgeView& view = {});
+
+ private:
+  /// gray: CV_8UC1, not empty.
+  virtual EdgeLines process(const cv::Mat& gray, const EdgeView& view) = 0;
 };
 
 /// Throws Error (kUsage) for a backend this program was not built with.
