@@ -38,6 +38,16 @@ def angles(source):
     return rows
 
 
+def sets(source):
+    """(name, ascending theta in -90 .. 89) of each angle set."""
+    for entry in source["set"]:
+        if "angles" in entry:
+            yield entry["name"], sorted(theta - 180 if theta >= 90 else theta for theta in entry["angles"])
+        else:
+            yield entry["name"], [theta for theta in range(-90, 90)
+                                  if abs(theta) <= entry["fine_deg"] or theta % 2 == 0]
+
+
 def expand(registers):
     """(name, offset) of each 32-bit word."""
     for register in registers:
@@ -74,6 +84,11 @@ def system_verilog(source):
     for name, column, width in (("COS", 1, bits), ("SIN", 2, bits), ("ADMIT", 3, 4)):
         literal = packed([row[column] for row in table], width)
         lines += [f"  localparam logic [{width * len(table) - 1}:0] {name}_TABLE =", f"      {literal};"]
+    lines += ["", "  // Angle sets: 8 bits for each angle, theta + 90, the first in the lowest bits."]
+    for name, members in sets(source):
+        literal = packed([theta + 90 for theta in members], 8).split("'")[1]
+        lines += [f"  localparam int {name.upper()}_ANGLES = {len(members)};",
+                  f"  localparam logic [1439:0] {name.upper()}_SET =", f"      1440'{literal};"]
     low = 0
     lines.append("")
     for name, width in reversed(source["line"]["fields"]):
@@ -114,7 +129,13 @@ def cpp_angles(source):
         "/// Entry i is theta = kFirstAngle_deg + i.", "// clang-format off",
         f"inline constexpr std::array<AngleEntry, {len(table)}> kAngleTable = {{{{"]
     lines += [f"    {{{theta}, {c}, {s}, {admitted}}}," for theta, c, s, admitted in table]
-    return "\n".join(lines + ["}};", "// clang-format on", "", "}  // namespace colonnade", ""])
+    lines += ["}};", "", "// Angle sets, ascending degrees."]
+    for name, members in sets(source):
+        lines.append(f"inline constexpr std::array<int, {len(members)}> {camel(name)}Set = {{")
+        lines += ["    " + ", ".join(str(theta) for theta in members[i:i + 18]) + ","
+                  for i in range(0, len(members), 18)]
+        lines.append("};")
+    return "\n".join(lines + ["// clang-format on", "", "}  // namespace colonnade", ""])
 
 
 def documentation(source):

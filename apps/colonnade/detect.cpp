@@ -13,6 +13,7 @@
 #include "colonnade/base/text.hpp"
 #include "colonnade/detectors/detection_csv.hpp"
 #include "colonnade/detectors/draw_detections.hpp"
+#include "colonnade/detectors/edge_view_of.hpp"
 #include "colonnade/evaluation/detection_score.hpp"
 #include "colonnade/frames/image_source.hpp"
 #include "interrupt.hpp"
@@ -123,7 +124,7 @@ ExitCode detect(const DetectArguments& arguments) {
       if (frame->gray.empty() && frame->depth_m.empty()) continue;
       mounting.refine(*frame);
       const auto start = std::chrono::steady_clock::now();
-      const EdgeLines edges = backend->extract(frame->gray);
+      const EdgeLines edges = backend->extract(frame->gray, edgeViewOf(*frame));
       const auto middle = std::chrono::steady_clock::now();
       const Detections detections = detectors.detect(*frame, edges);
       const auto end = std::chrono::steady_clock::now();

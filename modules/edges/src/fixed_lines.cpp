@@ -11,7 +11,6 @@
 namespace colonnade {
 namespace {
 
-constexpr int kFine_deg = 36;  // verticals of a tilted camera lie within
 constexpr int kCoarseStep_deg = 2;
 
 /// Sobel sums 4 differences where the directional operators sum 3, and the binomial Gaussian (sigma
@@ -28,11 +27,7 @@ int votes(int percent, int height_px) { return std::max(1, height_px * percent *
 
 FixedShape runShape() {
   FixedShape shape;
-  for (int angle = -90; angle < 90; ++angle) {
-    if (std::abs(angle) <= kFine_deg || angle % kCoarseStep_deg == 0) {
-      shape.angles_deg.push_back(angle);
-    }
-  }
+  shape.angles_deg.assign(kRunSet.begin(), kRunSet.end());
   return shape;
 }
 

@@ -5,6 +5,8 @@
 #include <chrono>
 #include <limits>
 
+#include "colonnade/detectors/edge_view_of.hpp"
+
 namespace colonnade {
 namespace {
 
@@ -21,11 +23,6 @@ class Stopwatch {
  private:
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
-
-EdgeView viewOf(const Frame& frame) {
-  const PinholeCamera& camera = frame.camera;
-  return {camera.fx_px, camera.fy_px, camera.cx_px, camera.cy_px, frame.T_robot_camera.linear()};
-}
 
 /// Books what the update used, and counts what it did not.
 void book(const Frame& frame, const StepReport& report, const std::vector<bool>& used,
@@ -94,7 +91,7 @@ void Session::run(FrameSource& source, const Observer& observer) {
     report.motion = motion.increment(*frame, mounting.uncertainty());
     report.times_ms.motion = watch.lap();
 
-    report.edges = backend->extract(frame->gray, viewOf(*frame));
+    report.edges = backend->extract(frame->gray, edgeViewOf(*frame));
     report.times_ms.edges = watch.lap();
 
     report.detections = detectors.detect(*frame, report.edges);
