@@ -14,6 +14,7 @@
 #include "colonnade/base/text.hpp"
 #include "colonnade/simulation/simulator.hpp"
 #include "colonnade/simulation/world_file.hpp"
+#include "progress.hpp"
 #include "verbs.hpp"
 
 namespace colonnade {
@@ -65,7 +66,13 @@ ExitCode simulateVerb(const SimulateArguments& arguments) {
                   ExitCode::kUsage);
     }
   }
-  const auto summary = simulate(loaded.world, arguments.log, arguments.options);
+  SimulationOptions options = arguments.options;
+  Progress progress;
+  options.progress = [&](std::size_t done, std::size_t total) {
+    progress.show(static_cast<double>(done) / static_cast<double>(total), done, "");
+  };
+  const auto summary = simulate(loaded.world, arguments.log, options);
+  progress.finish();
   if (!world_copy.empty()) writeFileAtomically(world_copy, loaded.text);
   std::printf("%s: %zu frames, %s s, %s m, %s MB; %zu of %zu landmarks seen\n",
               arguments.log.c_str(), summary.frames, formatFixed(summary.duration_s, 1).c_str(),

@@ -68,9 +68,38 @@ TEST(Renderer, depthEqualsARayCastWithATiltedOffsetCamera) {
       {0.5, -0.4, radians(-25.0)});
 }
 
-TEST(Renderer, withoutSupersamplingPixelsStayInPlace) {
+TEST(Renderer, pixelsStayInPlaceWhateverTheSupersampling) {
   REQUIRE_RENDERING();
-  expectDepthOfRayCast(testing::roomWorld("camera supersampling=1\n"), {0, 0, radians(10.0)});
+  for (const int factor : {1, 2, 4}) {
+    expectDepthOfRayCast(
+        testing::roomWorld("camera supersampling=" + std::to_string(factor) + "\n"),
+        {0, 0, radians(10.0)});
+  }
+}
+
+TEST(Renderer, floorDepthAgreesWithGeometry) {
+  REQUIRE_RENDERING();
+  for (const int factor : {2, 3}) {
+    const auto world = testing::roomWorld(
+        "camera width_px=320 height_px=240 pitch_deg=30\n"
+        "camera supersampling=" +
+        std::to_string(factor) + "\n");
+    const auto building = buildBuilding(world);
+    Renderer renderer(world, building);
+    const auto view = renderer.render(Pose2{}.toIsometry3() * world.camera.T_robot_camera());
+    const auto lens = world.camera.pinhole();
+    double worst = 0.0;
+    for (int row = 130; row < 240; ++row) {
+      for (int column = 100; column < 220; ++column) {
+        // Height falls by y cos + z sin of the pitch along the ray.
+        const auto ray = lens.ray(column, row);
+        const double fall = ray.y() * std::cos(radians(30.0)) + std::sin(radians(30.0));
+        const double depth = world.camera.height_m / fall;
+        worst = std::max(worst, std::abs(view.depth_m.at<float>(row, column) - depth));
+      }
+    }
+    EXPECT_LT(worst, 0.005) << factor;
+  }
 }
 
 /// Where the image is brighter on one side than on the other along the projection of a vertical
@@ -120,6 +149,58 @@ TEST(Renderer, landmarksLieOnVerticalGradients) {
         strongestOffset(gray, world.camera.pinhole(), T_world_camera, {4.8, y}, &strength);
     EXPECT_LE(std::abs(offset), 1) << "edge at y = " << y;
     EXPECT_GT(strength, 30.0) << "edge at y = " << y;
+  }
+}
+
+/// The sub-pixel column of the edge near (u, row): centroid of the squared gradient of `rows` rows
+/// along a line of slope du/dv.
+double edgeColumn(const cv::Mat& gray, double u, int row) {
+  double weights = 0.0, moments = 0.0;
+  for (int column = static_cast<int>(std::lround(u)) - 3;
+       column <= static_cast<int>(std::lround(u)) + 3; ++column) {
+    // The difference of two neighbours stands half way between them.
+    const double gradient = static_cast<double>(gray.at<unsigned char>(row, column + 1)) -
+                            static_cast<double>(gray.at<unsigned char>(row, column));
+    weights += gradient * gradient;
+    moments += gradient * gradient * (column + 0.5);
+  }
+  return moments / weights;
+}
+
+TEST(Renderer, verticalEdgesLieWithinAThirdOfAPixelOfTheirProjection) {
+  REQUIRE_RENDERING();
+  for (const int factor : {2, 3}) {
+    const auto world = testing::roomWorld(
+        "material concrete pattern=plain colour=60,60,60\n"
+        "camera width_px=640 height_px=480 supersampling=" +
+        std::to_string(factor) + "\n");
+    const auto building = buildBuilding(world);
+    Renderer renderer(world, building);
+    for (const double x : {0.5, 1.37}) {
+      const Pose2 T_world_robot{x, -1.0, 0.02};  // before the pilaster: its flanks are hidden
+      const Eigen::Isometry3d T_world_camera =
+          T_world_robot.toIsometry3() * world.camera.T_robot_camera();
+      cv::Mat gray;
+      cv::cvtColor(renderer.render(T_world_camera).colour, gray, cv::COLOR_BGR2GRAY);
+      const auto lens = world.camera.pinhole();
+      for (const double y : {-1.2, -0.8}) {  // the front edges of the pilaster, x = 4.8
+        double sum = 0.0;
+        int count = 0;
+        for (double z = 0.6; z < 1.2; z += 0.01) {
+          const Eigen::Vector3d p = T_world_camera.inverse() * Eigen::Vector3d(4.8, y, z);
+          const double u = lens.cx_px + lens.fx_px * p.x() / p.z();
+          const double v = lens.cy_px + lens.fy_px * p.y() / p.z();
+          const Eigen::Vector3d q = T_world_camera.inverse() * Eigen::Vector3d(4.8, y, z + 0.1);
+          const double slope = (u - lens.cx_px - lens.fx_px * q.x() / q.z()) /
+                               (v - lens.cy_px - lens.fy_px * q.y() / q.z());
+          const int row = static_cast<int>(std::lround(v));
+          const double expected = u + slope * (row - v);
+          sum += edgeColumn(gray, expected, row) - expected;
+          ++count;
+        }
+        EXPECT_LT(std::abs(sum / count), 0.3) << factor << " " << x << " " << y;
+      }
+    }
   }
 }
 

@@ -68,7 +68,9 @@ TEST(World, errorsNameFileLineAndWhatToDo) {
   EXPECT_THAT(errorOf("camera pitch_deg=steep\n"),
               AllOf(HasSubstr("my.world:1:"), HasSubstr("steep")));
   EXPECT_THAT(errorOf("camera height_m=nan\n"), HasSubstr("my.world:1:"));
-  EXPECT_THAT(errorOf("camera supersampling=2\n"), HasSubstr("odd"));
+  EXPECT_THAT(errorOf("light level=1\n"), HasSubstr("needs at_m or at_s"));
+  EXPECT_THAT(errorOf("light at_m=2\nlight at_m=1\n"), HasSubstr("must lie after"));
+  EXPECT_THAT(errorOf("light at_m=2\nlight at_s=3\n"), HasSubstr("not both"));
   EXPECT_THAT(errorOf(kWall + "door wall=north at_m=2\n"), HasSubstr("my.world:2:"));
   EXPECT_THAT(errorOf(kWall + "door wall=south at_m=4.9\n"),
               AllOf(HasSubstr("my.world:2:"), HasSubstr("5.0")));

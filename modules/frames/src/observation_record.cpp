@@ -24,7 +24,10 @@ using mrpt::obs::CObservation3DRangeScan;
 using mrpt::obs::CObservationBearingRange;
 using mrpt::obs::CObservationImage;
 
-constexpr const char* kImageMark = "\x01 colonnade: the image goes here \x02";
+/// Stands for an image until it is encoded: 0 the first camera's, then `more_images`.
+std::string imageMark(std::size_t index) {
+  return "\x01 colonnade: image " + std::to_string(index) + " goes here \x02";
+}
 
 mrpt::poses::CPose3D toPose(const Eigen::Isometry3d& T) {
   mrpt::math::CMatrixDouble44 matrix;
@@ -45,10 +48,20 @@ bool hasImage(const FrameRecord& record) {
   return !record.image.empty() || !record.encoded_image.empty();
 }
 
-mrpt::img::CImage markedImage() {
+mrpt::img::CImage markedImage(std::size_t index) {
   mrpt::img::CImage image;
-  image.setExternalStorage(kImageMark);
+  image.setExternalStorage(imageMark(index));
   return image;
+}
+
+std::shared_ptr<CObservationImage> imageOf(const PinholeCamera& camera,
+                                           const Eigen::Isometry3d& T_robot_camera,
+                                           std::size_t index) {
+  auto observation = std::make_shared<CObservationImage>();
+  observation->cameraPose = toPose(T_robot_camera);
+  observation->cameraParams = toCamera(camera);
+  observation->image = markedImage(index);
+  return observation;
 }
 
 std::shared_ptr<CObservation3DRangeScan> scanOf(const FrameRecord& record) {
@@ -70,7 +83,7 @@ std::shared_ptr<CObservation3DRangeScan> scanOf(const FrameRecord& record) {
     std::memcpy(&scan->rangeImage(row, 0), record.depth_units.ptr(row),
                 static_cast<std::size_t>(record.depth_units.cols) * sizeof(std::uint16_t));
   scan->hasIntensityImage = hasImage(record);
-  if (scan->hasIntensityImage) scan->intensityImage = markedImage();
+  if (scan->hasIntensityImage) scan->intensityImage = markedImage(0);
   return scan;
 }
 
@@ -101,16 +114,17 @@ void appendNumber(std::vector<std::uint8_t>& bytes, std::int32_t value) {
 }
 
 /// What stands behind the header of a CImage, version 9: external flag, colour flag, size, pixels.
-std::vector<std::uint8_t> imageBody(const FrameRecord& record, int jpeg_quality) {
-  std::vector<std::uint8_t> jpeg = record.encoded_image;
-  cv::Size size = record.image.size();
-  const bool colour = !jpeg.empty() || record.image.type() == CV_8UC3;
+/// `jpeg`: the colour image in that form already, or empty.
+std::vector<std::uint8_t> imageBody(const cv::Mat& image, std::vector<std::uint8_t> jpeg,
+                                    const PinholeCamera& camera, int jpeg_quality) {
+  cv::Size size = image.size();
+  const bool colour = !jpeg.empty() || image.type() == CV_8UC3;
   if (!jpeg.empty()) {
-    size = {record.camera.width_px, record.camera.height_px};
-  } else if (!colour && record.image.type() != CV_8UC1) {
+    size = {camera.width_px, camera.height_px};
+  } else if (!colour && image.type() != CV_8UC1) {
     throw Error("image to be written is neither 8-bit gray nor 8-bit colour");
   } else if (colour && jpeg_quality > 0) {
-    cv::imencode(".jpg", record.image, jpeg, {cv::IMWRITE_JPEG_QUALITY, jpeg_quality});
+    cv::imencode(".jpg", image, jpeg, {cv::IMWRITE_JPEG_QUALITY, jpeg_quality});
   }
   std::vector<std::uint8_t> body{0, static_cast<std::uint8_t>(colour)};
   const bool raw_colour = colour && jpeg.empty();
@@ -122,15 +136,35 @@ std::vector<std::uint8_t> imageBody(const FrameRecord& record, int jpeg_quality)
     return body;
   }
   const std::size_t row_bytes =
-      static_cast<std::size_t>(size.width) * static_cast<std::size_t>(record.image.channels());
+      static_cast<std::size_t>(size.width) * static_cast<std::size_t>(image.channels());
   if (!colour) {
     appendNumber(body, 0);  // origin: top left
     appendNumber(body, static_cast<std::int32_t>(row_bytes) * size.height);
     appendNumber(body, CV_8U);
     body.push_back(0);  // not zipped
   }
-  for (int row = 0; row < size.height; ++row) append(body, record.image.ptr(row), row_bytes);
+  for (int row = 0; row < size.height; ++row) append(body, image.ptr(row), row_bytes);
   return body;
+}
+
+/// Puts an image in the place of its mark, if that is there.
+std::vector<std::uint8_t> withBody(std::vector<std::uint8_t> objects, std::size_t index,
+                                   const cv::Mat& image, const std::vector<std::uint8_t>& jpeg,
+                                   const PinholeCamera& camera, int jpeg_quality) {
+  // Between the version of CImage and its end flag: external = 1, length of the name, the name.
+  const std::string name = imageMark(index);
+  std::vector<std::uint8_t> mark{1};
+  appendNumber(mark, static_cast<std::int32_t>(name.size()));
+  append(mark, name.data(), name.size());
+  const auto found = std::search(objects.begin(), objects.end(), mark.begin(), mark.end());
+  if (found == objects.end()) return objects;
+  const auto body = imageBody(image, jpeg, camera, jpeg_quality);
+  std::vector<std::uint8_t> result;
+  result.reserve(objects.size() + body.size());
+  result.insert(result.end(), objects.begin(), found);
+  result.insert(result.end(), body.begin(), body.end());
+  result.insert(result.end(), found + static_cast<std::ptrdiff_t>(mark.size()), objects.end());
+  return result;
 }
 
 }  // namespace
@@ -141,13 +175,14 @@ std::vector<mrpt::obs::CObservation::Ptr> observationsOf(const FrameRecord& reco
   if (!record.depth_units.empty()) {
     observations.push_back(scanOf(record));
   } else if (hasImage(record)) {
-    auto image = std::make_shared<CObservationImage>();
-    image->cameraPose = toPose(record.T_robot_camera);
-    image->cameraParams = toCamera(record.camera);
-    image->image = markedImage();
-    observations.push_back(image);
+    observations.push_back(imageOf(record.camera, record.T_robot_camera, 0));
   }
   for (auto& observation : observations) observation->sensorLabel = options.camera_label;
+  for (std::size_t i = 0; i < record.more_images.size(); ++i) {
+    const auto& more = record.more_images[i];
+    observations.push_back(imageOf(more.camera, more.T_robot_camera, i + 1));
+    observations.back()->sensorLabel = more.label;
+  }
   if (record.range_bearing) {
     observations.push_back(landmarksOf(*record.range_bearing));
     observations.back()->sensorLabel = "LANDMARKS";
@@ -156,21 +191,15 @@ std::vector<mrpt::obs::CObservation::Ptr> observationsOf(const FrameRecord& reco
   return observations;
 }
 
-std::vector<std::uint8_t> withImage(const std::vector<std::uint8_t>& objects,
-                                    const FrameRecord& record, int jpeg_quality) {
-  // Between the version of CImage and its end flag: external = 1, length of the name, the name.
-  std::vector<std::uint8_t> mark{1};
-  appendNumber(mark, static_cast<std::int32_t>(std::strlen(kImageMark)));
-  append(mark, kImageMark, std::strlen(kImageMark));
-  const auto found = std::search(objects.begin(), objects.end(), mark.begin(), mark.end());
-  if (found == objects.end()) return objects;
-  const auto body = imageBody(record, jpeg_quality);
-  std::vector<std::uint8_t> result;
-  result.reserve(objects.size() + body.size());
-  result.insert(result.end(), objects.begin(), found);
-  result.insert(result.end(), body.begin(), body.end());
-  result.insert(result.end(), found + static_cast<std::ptrdiff_t>(mark.size()), objects.end());
-  return result;
+std::vector<std::uint8_t> withImages(std::vector<std::uint8_t> objects, const FrameRecord& record,
+                                     int jpeg_quality) {
+  objects = withBody(std::move(objects), 0, record.image, record.encoded_image, record.camera,
+                     jpeg_quality);
+  for (std::size_t i = 0; i < record.more_images.size(); ++i) {
+    const auto& more = record.more_images[i];
+    objects = withBody(std::move(objects), i + 1, more.image, {}, more.camera, jpeg_quality);
+  }
+  return objects;
 }
 
 }  // namespace colonnade

@@ -108,7 +108,7 @@ void RawlogWriter::add(const FrameRecord& record) {
       for (const auto& observation : observations) archive << *observation;
     }
   }
-  impl_->write(withImage(bytes, record, impl_->options.jpeg_quality));
+  impl_->write(withImages(std::move(bytes), record, impl_->options.jpeg_quality));
 }
 
 void RawlogWriter::finish() {

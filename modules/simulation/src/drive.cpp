@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "colonnade/base/error.hpp"
 #include "colonnade/base/text.hpp"
@@ -114,42 +115,73 @@ double allowedSpeed(const std::vector<Piece>& pieces, std::size_t index, double 
   return allowed;
 }
 
-}  // namespace
-
-std::vector<RoutePose> driveSteps(const Route& route, double rate_hz) {
+/// Calls tick(pose, step of the route) after every dt seconds of the route; the start itself is not
+/// told.
+template <typename Tick>
+void follow(const Route& route, double dt, const Tick& tick) {
   const auto pieces = piecesOf(route);
-  const int steps_per_frame = std::max(1, static_cast<int>(std::lround(kStepsPerSecond / rate_hz)));
-  const double dt = 1.0 / (rate_hz * steps_per_frame);
-  std::vector<RoutePose> poses = {{route.start, 0}};
   Pose2 pose = route.start;  // at the beginning of the piece
   double speed = 0.0;
-  int step = 0;
-  std::size_t current = 0;
-  const auto tick = [&](const Pose2& now) {
-    if (++step % steps_per_frame == 0) poses.push_back({now, current});
-  };
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     const Piece& piece = pieces[i];
-    current = piece.step;
     double done = 0.0;
     if (piece.drives()) {
       while (done < piece.length_m) {
         speed =
             std::min(speed + kAcceleration * dt, allowedSpeed(pieces, i, piece.length_m - done));
         done = std::min(piece.length_m, done + std::max(speed, 0.005) * dt);
-        tick(advanced(pose, done, piece.curvature));
+        tick(advanced(pose, done, piece.curvature), piece.step);
       }
       pose = advanced(pose, piece.length_m, piece.curvature);
     } else if (piece.wait_s > 0.0) {
-      for (; done < piece.wait_s; done += dt) tick(pose);
+      for (; done < piece.wait_s; done += dt) tick(pose, piece.step);
     } else {
       while (done < std::abs(piece.turn)) {
         done = std::min(std::abs(piece.turn), done + piece.turn_rate * dt);
-        tick({pose.x, pose.y, wrapAngle(pose.phi + std::copysign(done, piece.turn))});
+        tick({pose.x, pose.y, wrapAngle(pose.phi + std::copysign(done, piece.turn))}, piece.step);
       }
       pose.phi = wrapAngle(pose.phi + piece.turn);
     }
   }
+}
+
+Pose2 interpolated(const Pose2& a, const Pose2& b, double share) {
+  return {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y),
+          wrapAngle(a.phi + share * wrapAngle(b.phi - a.phi))};
+}
+
+}  // namespace
+
+std::vector<RoutePose> driveSteps(const Route& route, double rate_hz) {
+  const int ticks_per_frame = std::max(1, static_cast<int>(std::lround(kStepsPerSecond / rate_hz)));
+  std::vector<RoutePose> poses = {{route.start, 0}};
+  int tick = 0;
+  follow(route, 1.0 / (rate_hz * ticks_per_frame), [&](const Pose2& pose, std::size_t step) {
+    if (++tick % ticks_per_frame == 0) poses.push_back({pose, step});
+  });
+  return poses;
+}
+
+double driveDuration(const Route& route) {
+  std::int64_t steps = 0;
+  follow(route, 1.0 / kStepsPerSecond, [&](const Pose2&, std::size_t) { ++steps; });
+  return static_cast<double>(steps) / kStepsPerSecond;
+}
+
+std::vector<Pose2> posesAt(const Route& route, const std::vector<double>& times_s) {
+  std::vector<Pose2> poses;
+  poses.reserve(times_s.size());
+  Pose2 before = route.start;
+  std::int64_t ticks = 0;
+  follow(route, 1.0 / kStepsPerSecond, [&](const Pose2& now, std::size_t) {
+    const auto begin = static_cast<double>(ticks++);  // in ticks, as is what follows
+    while (poses.size() < times_s.size() && times_s[poses.size()] * kStepsPerSecond < begin + 1.0) {
+      const double share = times_s[poses.size()] * kStepsPerSecond - begin;
+      poses.push_back(interpolated(before, now, std::max(0.0, share)));
+    }
+    before = now;
+  });
+  poses.resize(times_s.size(), before);
   return poses;
 }
 

@@ -3,6 +3,9 @@
 #include "colonnade/simulation/random.hpp"
 
 #include <cmath>
+#include <vector>
+
+#include "colonnade/base/angle.hpp"
 
 namespace colonnade {
 namespace {
@@ -23,9 +26,51 @@ std::uint64_t streamSeed(std::uint64_t seed, std::string_view stream) {
   return mixed(mixed(seed) ^ hash);
 }
 
+constexpr std::size_t kTableBits = 14;
+constexpr std::size_t kTableSize = std::size_t{1} << kTableBits;
+constexpr std::uint64_t kTableMask = kTableSize - 1;
+
+/// The quantiles (i + 1/2) / size of the standard normal distribution, scaled to unit variance.
+std::vector<float> normalTable() {
+  std::vector<double> upper(kTableSize / 2);
+  double z = 0.0, squares = 0.0;
+  for (std::size_t i = 0; i < upper.size(); ++i) {
+    const double tail = 0.5 - (static_cast<double>(i) + 0.5) / static_cast<double>(kTableSize);
+    for (int round = 0; round < 6; ++round) {  // Newton from the quantile before
+      const double density = std::exp(-0.5 * z * z) / std::sqrt(2.0 * kPi);
+      z += (0.5 * std::erfc(z / std::sqrt(2.0)) - tail) / density;
+    }
+    upper[i] = z;
+    squares += z * z;
+  }
+  const double scale = std::sqrt(static_cast<double>(upper.size()) / squares);
+  std::vector<float> table(kTableSize);
+  for (std::size_t i = 0; i < upper.size(); ++i) {
+    table[kTableSize / 2 + i] = static_cast<float>(scale * upper[i]);
+    table[kTableSize / 2 - 1 - i] = static_cast<float>(-scale * upper[i]);
+  }
+  return table;
+}
+
 }  // namespace
 
-Random::Random(std::uint64_t seed, std::string_view stream) : engine_(streamSeed(seed, stream)) {}
+Random::Random(std::uint64_t seed, std::string_view stream)
+    : engine_(streamSeed(seed, stream)), counter_(mixed(streamSeed(seed, stream))) {}
+
+void Random::uniforms(float* values, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) {
+    values[i] = static_cast<float>(mixed(counter_++) >> 40) * 0x1.0p-24F;
+  }
+}
+
+void Random::normals(float* values, std::size_t count) {
+  static const std::vector<float> table = normalTable();
+  std::uint64_t bits = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    bits = i % 4 == 0 ? mixed(counter_++) : bits >> kTableBits;
+    values[i] = table[bits & kTableMask];
+  }
+}
 
 double Random::normal() {
   if (has_spare_) {

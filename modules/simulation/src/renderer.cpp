@@ -5,6 +5,8 @@
 #include <mrpt/opengl/CFBORender.h>
 #include <mrpt/poses/CPose3D.h>
 
+#include <algorithm>
+#include <array>
 #include <opencv2/imgproc.hpp>
 
 #include "colonnade/base/error.hpp"
@@ -28,62 +30,119 @@ mrpt::img::TCamera enlarged(const PinholeCamera& camera, int factor) {
   return result;
 }
 
-std::unique_ptr<mrpt::opengl::CFBORender> openRenderer(unsigned width, unsigned height) {
+using Target = mrpt::opengl::CFBORender;
+
+/// `own_context`: the first one of a thread; further ones draw the same scene in its context.
+std::unique_ptr<Target> openRenderer(unsigned width, unsigned height, bool own_context = true) {
   try {
-    return std::make_unique<mrpt::opengl::CFBORender>(width, height);
+    Target::Parameters parameters(width, height);
+    parameters.create_EGL_context = own_context;
+    return std::make_unique<Target>(parameters);
   } catch (const std::exception& error) {
     throw Error("no off-screen rendering: " + firstLine(error.what()) +
                 "; install libegl1 and libgl1-mesa-dri");
   }
 }
 
+/// One camera that looks at the scene.
+struct Eye {
+  cv::Size size;
+  int factor = 1;  ///< rendered pixels per pixel and axis
+  std::unique_ptr<Target> target;
+  mrpt::img::CImage image;
+  mrpt::math::CMatrixFloat depth;
+
+  Eye(const PinholeCamera& camera, int rendered_per_pixel, const mrpt::opengl::COpenGLScene& scene,
+      bool own_context)
+      : size(camera.width_px, camera.height_px), factor(rendered_per_pixel) {
+    const auto lens = enlarged(camera, factor);
+    target = openRenderer(lens.ncols, lens.nrows, own_context);
+    auto& eye = target->getCamera(scene);
+    eye.setProjectiveFromPinhole(lens);
+    eye.set6DOFMode(true);
+  }
+
+  void moveTo(const Eigen::Isometry3d& T_world_camera, const mrpt::opengl::COpenGLScene& scene) {
+    // CCamera in 6DOF mode is optical: x right, y down, z forward.
+    target->getCamera(scene).setPose(
+        mrpt::poses::CPose3D(mrpt::math::CMatrixDouble44(T_world_camera.matrix())));
+  }
+
+  cv::Mat colour() const {
+    const cv::Mat big = image.asCvMat<cv::Mat>(mrpt::img::SHALLOW_COPY);
+    if (factor == 1) return big.clone();
+    cv::Mat result;
+    cv::resize(big, result, size, 0, 0, cv::INTER_AREA);
+    return result;
+  }
+
+  cv::Mat centreDepth() const {
+    cv::Mat result(size, CV_32FC1);
+    for (int row = 0; row < size.height; ++row) {
+      auto* found = result.ptr<float>(row);
+      const float* upper = &depth(row * factor + (factor - 1) / 2, 0);
+      const float* lower = &depth(row * factor + factor / 2, 0);
+      for (int column = 0; column < size.width; ++column) {
+        const int left = column * factor + (factor - 1) / 2, right = column * factor + factor / 2;
+        found[column] = left == right
+                            ? upper[left]
+                            : between({upper[left], upper[right], lower[left], lower[right]},
+                                      (row + column) % 2 == 0);
+      }
+    }
+    return result;
+  }
+
+  /// The depth amid four samples around a pixel's centre. Inverse depth is affine in the image of a
+  /// plane, so that their mean is exact there; at an outline the majority counts, and where two
+  /// stand against two, the nearer or the farther.
+  static float between(std::array<float, 4> z, bool nearer) {
+    constexpr float kSpread = 1.03F;
+    const auto [low, high] = std::minmax_element(z.begin(), z.end());
+    if (*low > 0.0F && *high < kSpread * *low) {
+      return 4.0F / (1.0F / z[0] + 1.0F / z[1] + 1.0F / z[2] + 1.0F / z[3]);
+    }
+    std::sort(z.begin(), z.end());
+    return nearer ? z[1] : z[2];
+  }
+};
+
 }  // namespace
 
 struct Renderer::Impl {
-  PinholeCamera camera;
-  int factor;
-  std::unique_ptr<mrpt::opengl::CFBORender> target;
   mrpt::opengl::COpenGLScene::Ptr scene;
   std::vector<Walker> walkers;
-  mrpt::img::CImage image;
-  mrpt::math::CMatrixFloat depth;
+  std::unique_ptr<Eye> eye;
+  std::unique_ptr<Eye> mono;
 };
 
 Renderer::Renderer(const World& world, const Building& building) : impl_(std::make_unique<Impl>()) {
-  impl_->camera = world.camera.pinhole();
-  impl_->factor = world.camera.supersampling;
-  const auto lens = enlarged(impl_->camera, impl_->factor);
-  impl_->target = openRenderer(lens.ncols, lens.nrows);
-  impl_->scene = buildScene(world, building);
   impl_->walkers = world.walkers;
+  impl_->scene = buildScene(world, building);
   impl_->scene->getViewport()->setViewportClipDistances(kNearM, kFarM);
-  auto& eye = impl_->target->getCamera(*impl_->scene);
-  eye.setProjectiveFromPinhole(lens);
-  eye.set6DOFMode(true);
+  const int factor = world.camera.renderedPerPixel();
+  impl_->eye = std::make_unique<Eye>(world.camera.pinhole(), factor, *impl_->scene, true);
+  if (world.mono.enabled) {
+    impl_->mono = std::make_unique<Eye>(world.mono.pinhole(), factor, *impl_->scene, false);
+  }
 }
 
 Renderer::~Renderer() = default;
 
 RenderedView Renderer::render(const Eigen::Isometry3d& T_world_camera, double time_s) {
   arrangeScene(*impl_->scene, impl_->walkers, T_world_camera, time_s);
-  // CCamera in 6DOF mode is optical: x right, y down, z forward.
-  impl_->target->getCamera(*impl_->scene)
-      .setPose(mrpt::poses::CPose3D(mrpt::math::CMatrixDouble44(T_world_camera.matrix())));
-  impl_->target->render_RGBD(*impl_->scene, impl_->image, impl_->depth);
+  Eye& eye = *impl_->eye;
+  eye.moveTo(T_world_camera, *impl_->scene);
+  eye.target->render_RGBD(*impl_->scene, eye.image, eye.depth);
+  return {eye.colour(), eye.centreDepth()};
+}
 
-  RenderedView view;
-  const cv::Mat big = impl_->image.asCvMat<cv::Mat>(mrpt::img::SHALLOW_COPY);
-  const cv::Size size(impl_->camera.width_px, impl_->camera.height_px);
-  cv::resize(big, view.colour, size, 0, 0, cv::INTER_AREA);
-  view.depth_m.create(size, CV_32FC1);
-  const int factor = impl_->factor;
-  for (int row = 0; row < size.height; ++row) {
-    for (int column = 0; column < size.width; ++column) {
-      view.depth_m.at<float>(row, column) =
-          impl_->depth(row * factor + factor / 2, column * factor + factor / 2);
-    }
-  }
-  return view;
+cv::Mat Renderer::renderMono(const Eigen::Isometry3d& T_world_camera, double time_s) {
+  arrangeScene(*impl_->scene, impl_->walkers, T_world_camera, time_s);
+  Eye& eye = *impl_->mono;
+  eye.moveTo(T_world_camera, *impl_->scene);
+  eye.target->render_RGB(*impl_->scene, eye.image);
+  return eye.colour();
 }
 
 std::string whyNoRendering() {

@@ -49,8 +49,32 @@ void readWait(Statement& s, World& world) {
 
 void readCamera(Statement& s, World& world) {
   world.camera.visit(s);
-  if (world.camera.supersampling % 2 == 0) s.fail("supersampling must be odd");
   s.finish(0);
+}
+
+void readMono(Statement& s, World& world) {
+  world.mono.enabled = true;
+  world.mono.visit(s);
+  s.finish(0);
+}
+
+void readLight(Statement& s, World& world) {
+  auto& schedule = world.light;
+  const bool by_time = s.has("at_s");
+  if (by_time == s.has("at_m")) s.fail("needs at_m or at_s");
+  LightSchedule::Point point;
+  double level = 1.0;
+  s.number(by_time ? "at_s" : "at_m", point.at, {0, 1e5}, "");
+  s.number("level", level, {0, 10}, "");
+  s.triple("tint", point.light, {0, 4});
+  s.finish(0);
+  point.light *= level;
+  if (!schedule.points.empty()) {
+    if (by_time != schedule.by_time) s.fail("use at_m or at_s in all light statements, not both");
+    if (point.at <= schedule.points.back().at) s.fail("must lie after the light statement before");
+  }
+  schedule.by_time = by_time;
+  schedule.points.push_back(point);
 }
 
 void readDepth(Statement& s, World& world) {

@@ -4,33 +4,90 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
+#include <thread>
 
+#include "capture_times.hpp"
 #include "colonnade/base/log_path.hpp"
 #include "colonnade/base/trajectory.hpp"
-#include "colonnade/frames/rawlog_writer.hpp"
 #include "colonnade/maps/landmark_csv.hpp"
-#include "colonnade/simulation/colour_noise.hpp"
-#include "colonnade/simulation/depth_noise.hpp"
 #include "colonnade/simulation/drive.hpp"
 #include "colonnade/simulation/floor_plan.hpp"
-#include "colonnade/simulation/odometry_noise.hpp"
-#include "colonnade/simulation/renderer.hpp"
-#include "colonnade/simulation/truth.hpp"
+#include "hand_over.hpp"
+#include "recorder.hpp"
 
 namespace colonnade {
 namespace {
 
-constexpr double kFirstStampS = 1767225600.0;  ///< 2026-01-01 00:00:00 UTC: logs have real stamps
+/// The frames of a drive, drawn one after the other.
+class Drive {
+ public:
+  Drive(const World& world, const Building& building, std::uint64_t seed)
+      : world_(world),
+        times_(captureTimes(world.camera, driveDuration(world.route), seed)),
+        poses_(posesAt(world.route, times_)),
+        renderer_(world, building) {}
 
-cv::Mat millimetres(const cv::Mat& depth_m) {
-  cv::Mat units(depth_m.size(), CV_16UC1);
-  for (int row = 0; row < depth_m.rows; ++row) {
-    for (int column = 0; column < depth_m.cols; ++column) {
-      units.at<std::uint16_t>(row, column) =
-          static_cast<std::uint16_t>(std::lround(1000.0F * depth_m.at<float>(row, column)));
+  std::size_t size() const { return times_.size(); }
+
+  TrueFrame next() {
+    const auto i = next_++;
+    const auto before = i > 0 ? i - 1 : 0;
+    driven_m_ += (poses_[i].translation() - poses_[before].translation()).norm();
+    TrueFrame frame{.index = i,
+                    .time_s = times_[i],
+                    .interval_s = times_[i] - times_[before],
+                    .driven_m = driven_m_,
+                    .T_world_robot = poses_[i],
+                    .T_previous_robot = poses_[before].inverse() * poses_[i]};
+    const Eigen::Isometry3d T_world_robot = poses_[i].toIsometry3();
+    frame.view = renderer_.render(T_world_robot * world_.camera.T_robot_camera(), times_[i]);
+    if (monoIsDue(i)) {
+      frame.mono = renderer_.renderMono(T_world_robot * world_.mono.T_robot_camera(), times_[i]);
     }
+    return frame;
   }
-  return units;
+
+ private:
+  /// The second camera's k-th image belongs to the frame nearest to k / rate_hz.
+  bool monoIsDue(std::size_t i) const {
+    if (!world_.mono.enabled) return false;
+    if (i == 0) return true;
+    const auto planned = [&](double time_s) { return std::floor(time_s * world_.mono.rate_hz); };
+    const double half_s = 0.5 / world_.camera.rate_hz;
+    return planned(times_[i] + half_s) > planned(times_[i - 1] + half_s);
+  }
+
+  const World& world_;
+  std::vector<double> times_;
+  std::vector<Pose2> poses_;
+  Renderer renderer_;
+  std::size_t next_ = 0;
+  double driven_m_ = 0.0;
+};
+
+/// Draws in this thread, measures and writes in another.
+void recordPipelined(Drive& drive, const std::function<void(TrueFrame)>& record) {
+  HandOver<TrueFrame> frames(2);
+  std::exception_ptr failure;
+  std::thread recorder([&] {
+    try {
+      while (auto frame = frames.take()) record(std::move(*frame));
+    } catch (...) {
+      failure = std::current_exception();
+      frames.close();
+    }
+  });
+  try {
+    for (std::size_t i = 0; i < drive.size() && frames.give(drive.next()); ++i) continue;
+  } catch (...) {
+    frames.close();
+    recorder.join();
+    throw;
+  }
+  frames.close();
+  recorder.join();
+  if (failure) std::rethrow_exception(failure);
 }
 
 }  // namespace
@@ -38,55 +95,36 @@ cv::Mat millimetres(const cv::Mat& depth_m) {
 SimulationSummary simulate(const World& world, const std::filesystem::path& log,
                            const SimulationOptions& options) {
   const Building building = buildBuilding(world);
-  const auto poses = driveRoute(world.route, world.camera.rate_hz);
   const FloorPlan plan = drawFloorPlan(building, world.route.start.translation());
-
-  Renderer renderer(world, building);
-  OdometryNoise odometry(world.odometry, options.seed);
-  DepthNoise depth_noise(world.depth, world.camera.pinhole(), options.seed);
-  ColourNoise colour_noise(world.colour, options.seed);
-  Truth truth(world, building);
-  RawlogWriter writer(log, {.format = RawlogWriterOptions::Format::kActionSensoryFramePairs,
-                            .gz_level = options.gz_level,
-                            .jpeg_quality = world.camera.jpeg_quality});
+  Drive drive(world, building, options.seed);
+  Recorder recorder(world, building, log, options.seed, options.gz_level);
 
   SimulationSummary summary;
   Trajectory trajectory;
-  Pose2 previous = poses.front();
-  for (const auto& pose : poses) {
-    const double stamp_s =
-        kFirstStampS + static_cast<double>(summary.frames) / world.camera.rate_hz;
-    const Eigen::Isometry3d T_world_camera = pose.toIsometry3() * world.camera.T_robot_camera();
-    const RenderedView view = renderer.render(T_world_camera, stamp_s - kFirstStampS);
-    const auto motion = odometry.measure(previous.inverse() * pose);
-
-    FrameRecord record;
-    record.stamp_s = stamp_s;
-    record.image = colour_noise.measure(view.colour);
-    if (world.depth.enabled) record.depth_units = millimetres(depth_noise.measure(view.depth_m));
-    record.camera = world.camera.pinhole();
-    record.T_robot_camera = world.camera.T_robot_camera();
-    record.motion = MotionRecord{motion.T_previous_robot, motion.covariance};
-    writer.add(record);
-
-    truth.observe(view.depth_m, T_world_camera, stamp_s);
-    trajectory.push_back({stamp_s, pose.toIsometry3()});
-    summary.path_length_m += (pose.translation() - previous.translation()).norm();
-    previous = pose;
+  const auto record = [&](const TrueFrame& frame) {
+    recorder.add(frame);
+    trajectory.push_back({Recorder::stampOf(frame), frame.T_world_robot.toIsometry3()});
+    summary.path_length_m = frame.driven_m;
     ++summary.frames;
-    if (options.progress) options.progress(summary.frames, poses.size());
+    if (options.progress) options.progress(summary.frames, drive.size());
+  };
+  if (options.pipeline) {
+    recordPipelined(drive, record);
+  } else {
+    for (std::size_t i = 0; i < drive.size(); ++i) record(drive.next());
   }
-  writer.finish();
+  recorder.finish();
 
   const std::string stem = logStem(log).string();
+  const auto& landmarks = recorder.truth().landmarks();
   writeTum(stem + "_ground_truth.tum", trajectory);
-  writeLandmarksCsv(stem + "_landmarks.csv", truth.landmarks());
+  writeLandmarksCsv(stem + "_landmarks.csv", landmarks);
   writeFloorPlan(stem + "_floor", plan);
 
   summary.duration_s = trajectory.back().stamp_s - trajectory.front().stamp_s;
-  summary.landmarks = truth.landmarks().size();
+  summary.landmarks = landmarks.size();
   summary.landmarks_seen = static_cast<std::size_t>(
-      std::count_if(truth.landmarks().begin(), truth.landmarks().end(),
+      std::count_if(landmarks.begin(), landmarks.end(),
                     [](const LandmarkRecord& landmark) { return landmark.observations > 0; }));
   summary.log_bytes = std::filesystem::file_size(log);
   return summary;

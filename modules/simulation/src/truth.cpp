@@ -5,23 +5,77 @@
 #include <algorithm>
 #include <cmath>
 
+#include "line_walk.hpp"
+#include "surfaces.hpp"
+
 namespace colonnade {
 namespace {
 
-constexpr double kSampleM = 0.05;    ///< distance of the samples along a landmark
 constexpr double kSeenShare = 0.10;  ///< of the image's height that must be seen of a landmark
-constexpr double kDepthTolerance = 0.02;
+constexpr int kGapSteps = 2;         ///< hidden steps within a visible piece
 
-/// Is the surface nearest to pixel (u, v), give or take one pixel, at this depth?
-bool unhidden(const cv::Mat& depth_m, double u, double v, double z) {
-  const int column = static_cast<int>(std::lround(u)), row = static_cast<int>(std::lround(v));
-  for (int r = std::max(0, row - 1); r <= std::min(depth_m.rows - 1, row + 1); ++r) {
-    for (int c = std::max(0, column - 1); c <= std::min(depth_m.cols - 1, column + 1); ++c) {
-      const double found = depth_m.at<float>(r, c);
-      if (found > 0.0 && std::abs(found - z) < kDepthTolerance * z) return true;
+/// The longest visible piece of a line, first and last step.
+struct Piece {
+  int first = 0;
+  int last = -1;
+};
+
+Piece longestPiece(const std::vector<bool>& visible) {
+  Piece best, now;
+  for (int step = 0; step < static_cast<int>(visible.size()); ++step) {
+    if (!visible[static_cast<std::size_t>(step)]) continue;
+    if (now.last < 0 || step - now.last > kGapSteps + 1) now.first = step;
+    now.last = step;
+    if (now.last - now.first > best.last - best.first || best.last < 0) best = now;
+  }
+  return best;
+}
+
+/// Mean gray level on the side `normal` (unit) points to less that on the other, 2 and 3 pixels
+/// beside the piece.
+double contrastOf(const cv::Mat& gray, const ImageLine& line, const Piece& piece,
+                  const Eigen::Vector2d& normal) {
+  double sum = 0.0;
+  int count = 0;
+  for (int step = piece.first; step <= piece.last; ++step) {
+    for (const double beside : {2.0, 3.0}) {
+      const Eigen::Vector2d p = line.at(step) + beside * normal,
+                            q = line.at(step) - beside * normal;
+      const cv::Point here(static_cast<int>(std::lround(p.x())),
+                           static_cast<int>(std::lround(p.y())));
+      const cv::Point there(static_cast<int>(std::lround(q.x())),
+                            static_cast<int>(std::lround(q.y())));
+      const cv::Rect image({0, 0}, gray.size());
+      if (!image.contains(here) || !image.contains(there)) continue;
+      sum += gray.at<unsigned char>(here) - gray.at<unsigned char>(there);
+      ++count;
     }
   }
-  return false;
+  return count > 0 ? sum / count : 0.0;
+}
+
+SeenColumn columnOf(const LandmarkRecord& landmark, const ImageLine& line, const Piece& piece,
+                    const cv::Mat& gray, const PinholeCamera& camera,
+                    const Eigen::Isometry3d& T_world_camera) {
+  SeenColumn column;
+  column.kind = name(landmark.kind);
+  column.id = number(landmark.id);
+  column.from = line.at(piece.first);
+  column.to = line.at(piece.last);
+  const bool upright = landmark.kind != LandmarkKind::kFloorEdge;
+  if (upright ? column.from.y() > column.to.y() : column.from.x() > column.to.x()) {
+    std::swap(column.from, column.to);
+  }
+  const Eigen::Vector2d along = (column.to - column.from).normalized();
+  const Eigen::Vector2d right(along.y(), -along.x());  // of a line drawn downwards
+  column.length_px = (column.to - column.from).norm();
+  column.contrast = contrastOf(gray, line, piece, upright ? right : Eigen::Vector2d(-right));
+  const Eigen::Vector2d middle = 0.5 * (column.from + column.to);
+  const Eigen::Vector3d p_camera =
+      camera.ray(middle.x(), middle.y()) /
+      (0.5 * (line.inverseAt(piece.first) + line.inverseAt(piece.last)));
+  column.range_m = (T_world_camera.linear() * p_camera).head<2>().norm();
+  return column;
 }
 
 LandmarkRecord uprightRecord(const VerticalEdge& edge, LandmarkKind kind, std::size_t id) {
@@ -74,40 +128,31 @@ Truth::Truth(const World& world, const Building& building)
   }
 }
 
-bool Truth::seen(const Outline& outline, const cv::Mat& depth_m,
-                 const Eigen::Isometry3d& T_camera_world) const {
-  const Eigen::Vector3d along = outline.b - outline.a;
-  const int samples = std::max(2, static_cast<int>(std::lround(along.norm() / kSampleM)));
-  double seen_px = 0.0;
-  Eigen::Vector2d last = Eigen::Vector2d::Zero();
-  bool last_seen = false;
-  for (int i = 0; i <= samples; ++i) {
-    const Eigen::Vector3d p = T_camera_world * (outline.a + along * i / samples);
-    Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
-    bool pixel_seen = false;
-    if (p.z() > 0.1 && p.z() < range_m_) {
-      pixel = {camera_.cx_px + camera_.fx_px * p.x() / p.z(),
-               camera_.cy_px + camera_.fy_px * p.y() / p.z()};
-      const bool inside = pixel.x() >= 0.0 && pixel.y() >= 0.0 && pixel.x() <= depth_m.cols - 1 &&
-                          pixel.y() <= depth_m.rows - 1;
-      pixel_seen = inside && unhidden(depth_m, pixel.x(), pixel.y(), p.z());
-    }
-    if (pixel_seen && last_seen) seen_px += (pixel - last).norm();
-    last = pixel;
-    last_seen = pixel_seen;
-  }
-  return seen_px >= kSeenShare * camera_.height_px;
-}
-
-void Truth::observe(const cv::Mat& depth_m, const Eigen::Isometry3d& T_world_camera,
-                    double stamp_s) {
+std::vector<SeenColumn> Truth::observe(const Surfaces& surfaces, const cv::Mat& gray,
+                                       const Eigen::Isometry3d& T_world_camera, double stamp_s) {
   const Eigen::Isometry3d T_camera_world = T_world_camera.inverse();
+  std::vector<SeenColumn> columns;
   for (std::size_t i = 0; i < landmarks_.size(); ++i) {
-    if (!seen(outlines_[i], depth_m, T_camera_world)) continue;
     auto& landmark = landmarks_[i];
-    if (landmark.observations++ == 0) landmark.first_stamp_s = stamp_s;
-    landmark.last_stamp_s = stamp_s;
+    const auto line =
+        projectedLine(T_camera_world * outlines_[i].a, T_camera_world * outlines_[i].b, camera_);
+    if (!line) continue;
+    const double step_px = (line->to - line->from).norm() / line->steps;
+    if (step_px * line->steps < kShortestPx) continue;
+    const auto visible = unhiddenSteps(*line, surfaces);
+    int in_range = 0;
+    for (int step = 0; step <= line->steps; ++step) {
+      in_range += visible[static_cast<std::size_t>(step)] && line->inverseAt(step) * range_m_ > 1.0;
+    }
+    if (step_px * in_range >= kSeenShare * camera_.height_px) {
+      if (landmark.observations++ == 0) landmark.first_stamp_s = stamp_s;
+      landmark.last_stamp_s = stamp_s;
+    }
+    const Piece piece = longestPiece(visible);
+    if (step_px * (piece.last - piece.first) < kShortestPx) continue;
+    columns.push_back(columnOf(landmark, *line, piece, gray, camera_, T_world_camera));
   }
+  return columns;
 }
 
 }  // namespace colonnade

@@ -24,7 +24,8 @@ const std::map<std::string, void (*)(Statement&, World&)> kBuildingStatements = 
 const std::map<std::string, void (*)(Statement&, World&)> kRobotStatements = {
     {"robot", readRobot}, {"start", readStart},   {"drive", readDrive},
     {"turn", readTurn},   {"wait", readWait},     {"camera", readCamera},
-    {"depth", readDepth}, {"colour", readColour}, {"odometry", readOdometry}};
+    {"depth", readDepth}, {"colour", readColour}, {"odometry", readOdometry},
+    {"light", readLight}, {"mono", readMono}};
 
 /// A part of the route, from `repeat` to `end`, that is driven several times.
 struct Repetition {

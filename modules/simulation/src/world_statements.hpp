@@ -37,6 +37,8 @@ void readRobot(Statement& s, World& world);
 void readTurn(Statement& s, World& world);
 void readWait(Statement& s, World& world);
 void readCamera(Statement& s, World& world);
+void readMono(Statement& s, World& world);
+void readLight(Statement& s, World& world);
 void readDepth(Statement& s, World& world);
 void readColour(Statement& s, World& world);
 void readOdometry(Statement& s, World& world);

@@ -19,6 +19,14 @@ struct MotionRecord {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< x, y, phi
 };
 
+/// An image of a further camera, logged as a CObservationImage.
+struct ImageRecord {
+  std::string label;  ///< the observation's sensor label
+  cv::Mat image;      ///< CV_8UC3 (BGR) or CV_8UC1
+  PinholeCamera camera;
+  Eigen::Isometry3d T_robot_camera = Eigen::Isometry3d::Identity();  ///< optical frame
+};
+
 /// What one instant puts into a rawlog. Empty parts are left out.
 struct FrameRecord {
   double stamp_s = 0.0;
@@ -33,6 +41,7 @@ struct FrameRecord {
   std::optional<MotionRecord> motion;  ///< an action, in the pairs format
   std::optional<Pose2> T_odom_robot;   ///< a CObservationOdometry, in the list format
   std::optional<RangeBearingScan> range_bearing;
+  std::vector<ImageRecord> more_images;  ///< of other cameras at the same instant
 };
 
 struct RawlogWriterOptions {

@@ -22,4 +22,11 @@ struct RoutePose {
 /// The same, each pose with the step of the route that it belongs to.
 std::vector<RoutePose> driveSteps(const Route& route, double rate_hz);
 
+/// How long the route takes, in seconds.
+double driveDuration(const Route& route);
+
+/// T_world_robot at each of these times, seconds since the start in ascending order; the robot
+/// stays where its route ends.
+std::vector<Pose2> posesAt(const Route& route, const std::vector<double>& times_s);
+
 }  // namespace colonnade

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <random>
 #include <string_view>
@@ -20,10 +21,16 @@ class Random {
   /// Standard normal, by the polar form of Box and Muller (Marsaglia, 1964).
   double normal();
 
+  /// Many at once, an order of magnitude faster: uniform in [0, 1) with 24 bits, and standard
+  /// normal from a table of 16384 quantiles (unit variance, at most 4 sigma).
+  void uniforms(float* values, std::size_t count);
+  void normals(float* values, std::size_t count);
+
  private:
   std::mt19937_64 engine_;
   double spare_ = 0.0;
   bool has_spare_ = false;
+  std::uint64_t counter_;  ///< of the fast numbers
 };
 
 /// Smooth noise in [-1, 1] over the plane: random values on the whole coordinates, interpolated.

@@ -18,14 +18,17 @@ struct RenderedView {
 };
 
 /// Draws a building off-screen through MRPT and EGL; needs no display. Throws Error where no EGL
-/// device is found.
+/// device is found. To be used in the thread that made it.
 class Renderer {
  public:
   Renderer(const World& world, const Building& building);
   ~Renderer();
 
-  /// `time_s` after the start of the route: people walk.
+  /// What the robot's camera sees. `time_s` after the start of the route: people walk.
   RenderedView render(const Eigen::Isometry3d& T_world_camera, double time_s = 0.0);
+
+  /// What the plain second camera sees (world.mono, which must be enabled): CV_8UC3, BGR.
+  cv::Mat renderMono(const Eigen::Isometry3d& T_world_camera, double time_s = 0.0);
 
  private:
   struct Impl;

@@ -13,7 +13,8 @@ namespace colonnade {
 
 struct SimulationOptions {
   std::uint64_t seed = 1;
-  int gz_level = 6;  ///< of the log: 0 plain, 1 fast ... 9 small
+  int gz_level = 4;      ///< of the log: 0 plain, 1 fast ... 9 small
+  bool pipeline = true;  ///< draw the next frame while one is measured and written; same bytes
   std::function<void(std::size_t done, std::size_t total)> progress = {};  ///< after every frame
 };
 
@@ -26,10 +27,10 @@ struct SimulationSummary {
   std::uintmax_t log_bytes = 0;
 };
 
-/// Drives the robot through its world and writes the log (action/sensory-frame pairs, one RGB-D
-/// observation each) and beside it the truth: STEM_ground_truth.tum, STEM_landmarks.csv,
-/// STEM_floor.png and .yaml. The same world, seed and options give the same bytes on the same
-/// machine. Throws Error.
+/// Drives the robot through its world and writes the log (action/sensory-frame pairs: one RGB-D
+/// observation each, and the images of the second camera) and beside it the truth:
+/// STEM_ground_truth.tum, STEM_landmarks.csv, STEM_columns.csv, STEM_floor.png and .yaml. The same
+/// world, seed and options give the same bytes on the same machine. Throws Error.
 SimulationSummary simulate(const World& world, const std::filesystem::path& log,
                            const SimulationOptions& options);
 

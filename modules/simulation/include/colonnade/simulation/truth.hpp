@@ -4,13 +4,17 @@
 
 #include <Eigen/Geometry>
 #include <opencv2/core/mat.hpp>
+#include <vector>
 
 #include "colonnade/filter/landmark_map.hpp"
 #include "colonnade/simulation/building.hpp"
+#include "colonnade/simulation/seen_column.hpp"
 
 namespace colonnade {
 
-/// The landmarks a building really has, and how often a camera could have seen each.
+struct Surfaces;
+
+/// The landmarks a building really has, how often a camera could have seen each, and where.
 ///   pillar      every vertical edge that stands on the floor; pair_id: the mirrored edge of the
 ///               same pillar, pilaster or door
 ///   floor_edge  every line in which a wall, pillar or door leaf meets the floor, 0.08 m or longer
@@ -21,18 +25,20 @@ class Truth {
  public:
   Truth(const World& world, const Building& building);
 
-  /// Counts what is seen: perfect depth, CV_32FC1.
-  void observe(const cv::Mat& depth_m, const Eigen::Isometry3d& T_world_camera, double stamp_s);
+  /// Counts what is seen, and tells where: the landmarks of which kShortestPx or more are in the
+  /// picture, at any distance. `gray`: CV_8UC1 without noise.
+  std::vector<SeenColumn> observe(const Surfaces& surfaces, const cv::Mat& gray,
+                                  const Eigen::Isometry3d& T_world_camera, double stamp_s);
 
   const LandmarkMap& landmarks() const { return landmarks_; }
+
+  static constexpr double kShortestPx = 8.0;
 
  private:
   struct Outline {
     Eigen::Vector3d a;
     Eigen::Vector3d b;
   };
-  bool seen(const Outline& outline, const cv::Mat& depth_m,
-            const Eigen::Isometry3d& T_camera_world) const;
 
   PinholeCamera camera_;
   double range_m_;

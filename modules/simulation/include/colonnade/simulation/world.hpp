@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "colonnade/base/pose2.hpp"
+#include "colonnade/simulation/light_schedule.hpp"
 #include "colonnade/simulation/sensor_options.hpp"
 
 namespace colonnade {
@@ -180,7 +181,9 @@ struct World {
   std::size_t ceiling_material = 0;
   double texels_per_m = 200.0;
   Route route;
+  LightSchedule light;
   CameraOptions camera;
+  MonoOptions mono;
   DepthOptions depth;
   ColourOptions colour;
   OdometryOptions odometry;
