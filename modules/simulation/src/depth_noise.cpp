@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <opencv2/imgproc.hpp>
 #include <vector>
@@ -20,6 +21,9 @@ constexpr double kSteepest = radians(85.0);  ///< the published angles end about
 constexpr double kMillimetre = 0.001;
 
 int kernelSize(double sigma_px) { return 2 * static_cast<int>(std::ceil(3.0 * sigma_px)) + 1; }
+
+/// To the next whole number, of what is positive and not huge; a call of the library costs more.
+double rounded(double value) { return static_cast<double>(static_cast<std::int64_t>(value + 0.5)); }
 
 /// theta / (pi/2 - theta) of the noise models, from the cosine of theta.
 double steepness(double cosine) {
@@ -153,11 +157,11 @@ cv::Mat DepthNoise::measure(const Surfaces& surfaces, const cv::Mat& no_return) 
           std::max(0.0, total * total - (step * step + kMillimetre * kMillimetre) / 12.0));
       double result = z + rest * static_cast<double>(noise.at<float>(row, column));
       if (disparity_gain > 0.0 && result > 0.0) {
-        result = disparity_gain / std::max(1.0, std::round(disparity_gain / result));
+        result = disparity_gain / std::max(1.0, rounded(disparity_gain / result));
       }
       if (result < o.range_min_m || result > o.range_max_m) continue;
       measured.at<std::uint16_t>(row, column) =
-          static_cast<std::uint16_t>(std::lround(result / kMillimetre));
+          static_cast<std::uint16_t>(result / kMillimetre + 0.5);
     }
   }
   return measured;
