@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "colonnade/base/error.hpp"
 #include "colonnade/simulation/floor_plan.hpp"
 #include "colonnade/simulation/truth.hpp"
@@ -74,6 +76,67 @@ TEST(Building, pillarHasFourConvexEdges) {
       EXPECT_TRUE(edge->convex && edge->slope && edge->partner);
     }
   }
+}
+
+TEST(Building, anOpenDoorLeadsThroughTwoWalls) {
+  const auto building = buildBuilding(
+      testing::roomWorld("room n  4 2.2  4 5  0 5  0 2.2\n"
+                         "door wall=r.3 at_m=3 into=n.4 state=open hinge=right open_deg=90\n"));
+  // The wall y = 2 runs west from x = 5: the opening is from x = 1.55 to 2.45.
+  ASSERT_EQ(building.gaps.size(), 2U);
+  for (const auto& gap : building.gaps) {
+    EXPECT_NEAR(gap.a.y(), 2.1, 1e-9);
+    EXPECT_NEAR((gap.b - gap.a).norm(), 0.9, 1e-9);
+  }
+  // Jambs end in edges on both sides, that find their partner across the opening.
+  for (const double y : {1.98, 2.22}) {
+    const auto* left = edgeAt(building, 1.55, y);
+    const auto* right = edgeAt(building, 2.45, y);
+    ASSERT_TRUE(left && right) << y;
+    EXPECT_TRUE(left->convex && right->convex);
+    EXPECT_EQ(&building.edges[*left->partner], right);
+  }
+  EXPECT_FALSE(edgeAt(building, 1.55, 2.1));  // where the two halves of a jamb meet
+  // Seen from the first room the hinge is on the right, x = 2.45; the leaf points north.
+  EXPECT_TRUE(edgeAt(building, 2.45, 2.22 + 0.9));
+  const auto plan = drawFloorPlan(building, {0, 0});
+  const int row = plan.cells.rows - 1 - static_cast<int>((4.0 - plan.origin.y()) / 0.05);
+  const int column = static_cast<int>((2.0 - plan.origin.x()) / 0.05);
+  EXPECT_EQ(static_cast<int>(plan.cells.at<unsigned char>(row, column)), 254);
+}
+
+TEST(Building, aSkirtingBoardThatStandsOutMovesTheFloorLine) {
+  const auto building =
+      buildBuilding(parseWorld("room r 0 0 5 0 5 4 0 4 skirting_out_m=0.02\ndrive 1 1\n", "w"));
+  ASSERT_EQ(building.floor_lines.size(), 4U);
+  // The south wall's: 2 cm inside, shorter by 2 cm at both concave corners.
+  EXPECT_NEAR((building.floor_lines[0].a - Eigen::Vector2d(0.02, 0.02)).norm(), 0.0, 1e-9);
+  EXPECT_NEAR((building.floor_lines[0].b - Eigen::Vector2d(4.98, 0.02)).norm(), 0.0, 1e-9);
+  EXPECT_TRUE(edgeAt(building, 5, 0));
+}
+
+TEST(Building, roundPillarsHaveNoEdgesAndFurnitureStandsOnItsLegs) {
+  const auto bare = buildBuilding(testing::roomWorld());
+  const auto round = buildBuilding(testing::roomWorld("column 3 1 diameter_m=0.4\n"));
+  EXPECT_EQ(round.edges.size(), bare.edges.size());
+  EXPECT_EQ(round.floor_lines.size(), bare.floor_lines.size());
+  EXPECT_GT(round.outline.size(), bare.outline.size());
+  const auto table = buildBuilding(testing::roomWorld("table 3 1 size_m=1.2,0.7\n"));
+  EXPECT_EQ(table.edges.size(), bare.edges.size() + 16);
+  const auto cabinet =
+      buildBuilding(testing::roomWorld("cabinet 3 1 size_m=0.4,0.8 height_m=1.2\n"));
+  const auto* edge = edgeAt(cabinet, 2.8, 0.6);
+  ASSERT_TRUE(edge);
+  EXPECT_DOUBLE_EQ(edge->height_m, 1.2);
+}
+
+TEST(Building, facesKnowGlassAndMirrors) {
+  const auto building = buildBuilding(testing::roomWorld(
+      "wall pane 2 -2 2 -1 material=glass skirting_m=0\nboard wall=r.3 at_m=2 material=mirror\n"));
+  std::map<Surface, int> count;
+  for (const auto& face : building.faces) ++count[face.surface];
+  EXPECT_EQ(count[Surface::kGlass], 1);
+  EXPECT_EQ(count[Surface::kMirror], 1);
 }
 
 TEST(Building, wallsOfOneLineHaveNoEdgeBetweenThem) {

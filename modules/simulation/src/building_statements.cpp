@@ -10,8 +10,9 @@ const std::vector<std::pair<std::string, Surface>> kSurfaces = {
     {"opaque", Surface::kOpaque}, {"glass", Surface::kGlass}, {"mirror", Surface::kMirror}};
 
 const std::vector<std::pair<std::string, Pattern>> kPatterns = {
-    {"plaster", Pattern::kPlaster}, {"tiles", Pattern::kTiles}, {"panels", Pattern::kPanels},
-    {"papers", Pattern::kPapers},   {"plain", Pattern::kPlain}, {"lamp", Pattern::kLamp}};
+    {"plaster", Pattern::kPlaster}, {"tiles", Pattern::kTiles},   {"panels", Pattern::kPanels},
+    {"papers", Pattern::kPapers},   {"sheets", Pattern::kSheets}, {"decals", Pattern::kDecals},
+    {"plain", Pattern::kPlain},     {"lamp", Pattern::kLamp}};
 
 /// A key whose value is one of a list of names.
 template <typename T>
@@ -102,6 +103,7 @@ void readMaterial(Statement& s, World& world) {
   readNamed(s, "pattern", read.pattern, kPatterns);
   readNamed(s, "surface", read.surface, kSurfaces);
   s.number("opacity", read.opacity, {0, 1}, "of glass");
+  s.number("gloss", read.gloss, {0, 0.9}, "of a floor");
   s.triple("colour", read.colour, {0, 255});
   s.triple("second", read.second, {0, 255});
   s.number("grain", read.grain, {0, 100}, "gray levels of fine noise");

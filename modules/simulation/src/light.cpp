@@ -8,8 +8,8 @@
 namespace colonnade {
 namespace {
 
-constexpr double kAmbient = 0.55;
-constexpr double kLampGain = 1.5;
+constexpr double kAmbient = 0.50;
+constexpr double kLampGain = 2.0;
 constexpr double kOcclusionDepth = 0.25;  ///< share of light lost in a corner
 constexpr double kOcclusionReachM = 0.12;
 constexpr double kReachM = 8.0;       ///< of a lamp

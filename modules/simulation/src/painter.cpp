@@ -12,6 +12,7 @@ namespace colonnade {
 namespace {
 
 constexpr double kLightCellM = 0.06;
+constexpr double kBlotchCellM = 0.02;
 constexpr double kJointM = 0.008;
 
 /// Distance into a period of length `tile`, from the nearer joint.
@@ -38,6 +39,17 @@ bool onSheet(double along_m, double up_m, std::uint32_t seed, double* shade) {
                               static_cast<std::int64_t>(std::floor(y / 0.02)), seed + 4) < 0.4;
   if (text) *shade *= 0.45;
   return true;
+}
+
+/// Clusters of round spots at the height of the eyes.
+bool onDecal(double along_m, double up_m, std::uint32_t seed) {
+  constexpr double kCell = 0.09, kLow = 0.9, kHigh = 1.7;
+  if (up_m < kLow || up_m > kHigh || latticeNoise(along_m / 0.9, up_m / 0.5, seed + 5) < 0.15) {
+    return false;
+  }
+  const double x = along_m - kCell * (std::floor(along_m / kCell) + 0.5);
+  const double y = up_m - kCell * (std::floor(up_m / kCell) + 0.5);
+  return std::hypot(x, y) < 0.3 * kCell;
 }
 
 /// A door leaf: two sunk panels and a handle.
@@ -82,6 +94,11 @@ Eigen::Vector3d Painter::colourAt(const Material& material, double along_m, doub
       const double rim = std::min({along_m, size_m.x() - along_m, up_m, size_m.y() - up_m});
       return rim < 0.02 ? material.second : material.colour;
     }
+    case Pattern::kSheets:
+      return fromJoint(along_m, material.tile_m) < 0.5 * kJointM ? material.second
+                                                                 : material.colour;
+    case Pattern::kDecals:
+      return onDecal(along_m, up_m, seed) ? material.second : material.colour;
     case Pattern::kPlaster:
     case Pattern::kPlain:
       return material.colour;
@@ -109,9 +126,29 @@ cv::Mat Painter::lightMap(const Face& face, int width_px, int height_px) const {
   return fine;
 }
 
+cv::Mat Painter::blotchMap(const Eigen::Vector2d& size_m, std::uint32_t seed, int width_px,
+                           int height_px) const {
+  const auto cells = [](double length) {
+    return std::max(2, static_cast<int>(std::ceil(length / kBlotchCellM)));
+  };
+  cv::Mat coarse(cells(size_m.y()), cells(size_m.x()), CV_32FC1), fine;
+  for (int row = 0; row < coarse.rows; ++row) {
+    const double up_m = size_m.y() * (1.0 - (row + 0.5) / coarse.rows);
+    for (int column = 0; column < coarse.cols; ++column) {
+      const double along_m = size_m.x() * (column + 0.5) / coarse.cols;
+      coarse.at<float>(row, column) =
+          static_cast<float>(latticeNoise(along_m / 0.31, up_m / 0.27, seed + 12) +
+                             0.6 * latticeNoise(along_m / 0.07, up_m / 0.06, seed + 13));
+    }
+  }
+  cv::resize(coarse, fine, cv::Size(width_px, height_px), 0, 0, cv::INTER_LINEAR);
+  return fine;
+}
+
 cv::Mat Painter::paint(const Face& face, std::uint32_t seed, int width_px, int height_px) const {
   const Eigen::Vector2d size_m(face.along.norm(), face.up.norm());
   const cv::Mat light = lightMap(face, width_px, height_px);
+  const cv::Mat blotches = blotchMap(size_m, seed, width_px, height_px);
   cv::Mat picture(height_px, width_px, CV_8UC3);
   for (int row = 0; row < height_px; ++row) {
     const double up_m = size_m.y() * (1.0 - (row + 0.5) / height_px);
@@ -120,10 +157,8 @@ cv::Mat Painter::paint(const Face& face, std::uint32_t seed, int width_px, int h
     for (int column = 0; column < width_px; ++column) {
       const double along_m = size_m.x() * (column + 0.5) / width_px;
       Eigen::Vector3d colour = colourAt(material, along_m, up_m, size_m, seed);
-      colour.array() +=
-          material.grain * cellNoise(column, row, seed + 11) +
-          material.blotches * (latticeNoise(along_m / 0.31, up_m / 0.27, seed + 12) +
-                               0.6 * latticeNoise(along_m / 0.07, up_m / 0.06, seed + 13));
+      colour.array() += material.grain * cellNoise(column, row, seed + 11) +
+                        material.blotches * blotches.at<float>(row, column);
       colour *= light.at<float>(row, column);
       auto& pixel = picture.at<cv::Vec3b>(row, column);
       for (int channel = 0; channel < 3; ++channel) {

@@ -22,6 +22,9 @@ class Painter {
   Eigen::Vector3d colourAt(const Material& material, double along_m, double up_m,
                            const Eigen::Vector2d& size_m, std::uint32_t seed) const;
   cv::Mat lightMap(const Face& face, int width_px, int height_px) const;
+  /// Coarse noise of the surface in [-1.6, 1.6].
+  cv::Mat blotchMap(const Eigen::Vector2d& size_m, std::uint32_t seed, int width_px,
+                    int height_px) const;
 
   const World& world_;
   Light light_;

@@ -68,14 +68,17 @@ class Writer {
 
   void materials() {
     line("material plaster pattern=plaster colour=" + colour(185, 220, 8) + " grain=3 blotches=5");
-    line("material accent  pattern=plaster colour=" + colour(120, 180, 35) + " grain=3 blotches=4");
+    const std::string accent = chance(0.5) ? "plaster" : chance(0.5) ? "decals" : "sheets";
+    line("material accent  pattern=" + accent + " tile_m=1.2 colour=" + colour(120, 180, 35) +
+         " grain=3 blotches=4");
     line("material door1   pattern=panels  colour=" + colour(90, 150, 35) + " second=70,60,54");
     line("material door2   pattern=panels  colour=" + colour(90, 160, 35) + " second=64,66,70");
     line("material stone   pattern=plaster colour=" + colour(110, 170, 6) + " grain=5 blotches=7");
     line("material dark    pattern=plaster colour=" + colour(35, 75, 8) + " grain=3 blotches=3");
     const std::string tile = text(pick(0.3, 0.6));
+    const std::string gloss = chance(0.3) ? " gloss=" + text(pick(0.05, 0.15)) : "";
     line("material ground  pattern=tiles   colour=" + colour(115, 160, 10) +
-         " second=100,96,90 tile_m=" + tile);
+         " second=100,96,90 tile_m=" + tile + gloss);
     line("material baseboard pattern=plain colour=" + colour(50, 100, 6));
     line("floor material=ground\n");
     skirting_ = " skirting=baseboard skirting_m=" + text(pick(0.07, 0.12));

@@ -89,6 +89,29 @@ void addFace(mrpt::opengl::CSetOfTexturedTriangles& triangles, const Face& face,
 /// The parts of a scene that arrangeScene looks for.
 std::string pageName(std::size_t page) { return "page " + std::to_string(page); }
 const std::string kGlassName = "glass";
+const std::string kFloorName = "floor";
+
+bool isFloor(const Face& face) { return face.origin.z() == 0.0 && face.normal().z() > 0.5; }
+
+/// The face as a glossy floor shows it.
+Face mirrored(Face face) {
+  for (auto* p : {&face.origin, &face.along, &face.up}) p->z() = -p->z();
+  return face;
+}
+
+/// A floor that lets what is mirrored below it shine through.
+mrpt::opengl::CSetOfTexturedTriangles::Ptr glossyFloor(const Face& face, const cv::Mat& picture,
+                                                       double gloss) {
+  auto floor = mrpt::opengl::CSetOfTexturedTriangles::Create();
+  addFace(*floor, face, {0.0F, 1.0F, 1.0F, 0.0F});
+  const cv::Mat alpha(picture.size(), CV_8UC1, cv::Scalar(255.0 * (1.0 - gloss)));
+  floor->assignImage(mrpt::img::CImage(picture, mrpt::img::DEEP_COPY),
+                     mrpt::img::CImage(alpha, mrpt::img::DEEP_COPY));
+  floor->enableTextureLinearInterpolation(true);
+  floor->enableLight(false);
+  floor->setName(kFloorName);
+  return floor;
+}
 
 /// All panes of glass, tinted by their material and the light on them.
 mrpt::opengl::CSetOfTexturedTriangles::Ptr glassPanes(const World& world,
@@ -120,15 +143,22 @@ mrpt::opengl::CSetOfTexturedTriangles::Ptr glassPanes(const World& world,
 }  // namespace
 
 mrpt::opengl::COpenGLScene::Ptr buildScene(const World& world, const Building& building) {
+  const double gloss = world.materials[world.floor_material].gloss;
+  const Painter painter(world, building);
+  auto scene = mrpt::opengl::COpenGLScene::Create();
   std::vector<const Face*> faces;
   std::vector<cv::Size> sizes;
   for (const auto& face : building.faces) {
     if (face.surface == Surface::kGlass) continue;
+    if (gloss > 0.0 && isFloor(face)) {
+      const auto size = pictureSize(face, world.texels_per_m);
+      scene->insert(glossyFloor(face, painter.paint(face, 1, size.width, size.height), gloss));
+      continue;
+    }
     faces.push_back(&face);
     sizes.push_back(pictureSize(face, world.texels_per_m));
   }
   const auto slots = packed(sizes);
-  const Painter painter(world, building);
 
   std::vector<cv::Mat> pages;
   std::vector<mrpt::opengl::CSetOfTexturedTriangles::Ptr> sets;
@@ -144,9 +174,9 @@ mrpt::opengl::COpenGLScene::Ptr buildScene(const World& world, const Building& b
     cv::copyMakeBorder(picture, pages[slots[i].page](area), kMarginPx, kMarginPx, kMarginPx,
                        kMarginPx, cv::BORDER_REPLICATE);
     addFace(*sets[slots[i].page], *faces[i], areaOf(slots[i]));
+    if (gloss > 0.0) addFace(*sets[slots[i].page], mirrored(*faces[i]), areaOf(slots[i]));
   }
 
-  auto scene = mrpt::opengl::COpenGLScene::Create();
   for (std::size_t page = 0; page < pages.size(); ++page) {
     sets[page]->assignImage(mrpt::img::CImage(pages[page], mrpt::img::DEEP_COPY));
     sets[page]->enableTextureLinearInterpolation(true);
@@ -154,7 +184,10 @@ mrpt::opengl::COpenGLScene::Ptr buildScene(const World& world, const Building& b
     sets[page]->setName(pageName(page));
     scene->insert(sets[page]);
   }
-  if (faces.size() < building.faces.size()) scene->insert(glassPanes(world, building));
+  if (std::any_of(building.faces.begin(), building.faces.end(),
+                  [](const Face& face) { return face.surface == Surface::kGlass; })) {
+    scene->insert(glassPanes(world, building));
+  }
   for (std::size_t i = 0; i < world.walkers.size(); ++i) {
     for (const auto& part : drawnWalker(world.walkers[i], i)) scene->insert(part);
   }
@@ -163,18 +196,18 @@ mrpt::opengl::COpenGLScene::Ptr buildScene(const World& world, const Building& b
 
 void arrangeScene(mrpt::opengl::COpenGLScene& scene, const std::vector<Walker>& walkers,
                   const Eigen::Isometry3d& T_world_camera, double time_s) {
-  // MRPT draws what has the more distant representative point first.
+  // MRPT draws what has the more distant representative point first: what glossy floors and glass
+  // let through before these.
   const auto represent = [&](mrpt::opengl::CRenderizable& object, double distance_m) {
     const Eigen::Vector3f p =
         (T_world_camera * Eigen::Vector3d(0.0, 0.0, distance_m)).cast<float>();
     object.setLocalRepresentativePoint({p.x(), p.y(), p.z()});
   };
-  if (const auto glass = scene.getByName(kGlassName)) {
-    represent(*glass, 1.0);
-    for (std::size_t page = 0; const auto set = scene.getByName(pageName(page)); ++page) {
-      represent(*set, 10.0);
-    }
+  for (std::size_t page = 0; const auto set = scene.getByName(pageName(page)); ++page) {
+    represent(*set, 10.0);
   }
+  if (const auto floor = scene.getByName(kFloorName)) represent(*floor, 5.0);
+  if (const auto glass = scene.getByName(kGlassName)) represent(*glass, 1.0);
   for (std::size_t i = 0; i < walkers.size(); ++i) moveWalker(scene, walkers[i], i, time_s);
 }
 

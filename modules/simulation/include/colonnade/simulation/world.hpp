@@ -16,7 +16,7 @@
 namespace colonnade {
 
 /// How a surface is painted.
-enum class Pattern { kPlaster, kTiles, kPanels, kPapers, kPlain, kLamp };
+enum class Pattern { kPlaster, kTiles, kPanels, kPapers, kPlain, kLamp, kSheets, kDecals };
 
 /// What light and the pattern of a depth sensor do at a surface. Glass is drawn see-through and,
 /// like a mirror, gives no depth.
@@ -31,6 +31,7 @@ struct Material {
   double blotches = 4.0;                     ///< gray levels of coarse noise
   double tile_m = 0.30;
   Surface surface = Surface::kOpaque;
+  double gloss = 0.0;    ///< of a floor: share of light that it mirrors
   double opacity = 0.3;  ///< of glass: 0 nothing to see, 1 nothing to see behind
 };
 
