@@ -44,8 +44,11 @@ std::optional<double> offsetAcross(const ImageLine& seen, const ImageLine& there
 }
 
 bool isWanted(const TrueImageLine& line, const DetectionScoreOptions& options) {
-  return line.visible_px >= options.min_visible_px && line.contrast >= options.min_contrast &&
-         (!line.distance_m || *line.distance_m <= options.max_distance_m);
+  const bool by_depth = line.kind == LandmarkKind::kDepthSlope;
+  const double farthest_m = by_depth ? options.max_corner_distance_m : options.max_distance_m;
+  return line.visible_px >= options.min_visible_px &&
+         (by_depth || line.contrast >= options.min_contrast) &&
+         (!line.distance_m || *line.distance_m <= farthest_m);
 }
 
 double share(std::size_t part, std::size_t whole) {
@@ -58,7 +61,7 @@ std::int64_t microseconds(double stamp_s) { return std::llround(1e6 * stamp_s); 
 
 TrueImageLines readColumnsCsv(const std::filesystem::path& path) {
   CsvTable table(
-      path, {"stamp", "id", "kind", "u0", "v0", "u1", "v1", "visible_px", "range_m", "contrast"},
+      path, {"stamp", "id", "kind", "u0", "v0", "u1", "v1", "length_px", "range_m", "contrast"},
       "a table of what each frame shows");
   TrueImageLines lines;
   while (const auto row = table.next()) {
@@ -71,8 +74,8 @@ TrueImageLines readColumnsCsv(const std::filesystem::path& path) {
     line.b_px = {row->number("u1"), row->number("v1")};
     if (!row->empty("range_m")) line.distance_m = row->number("range_m");
     line.landmark = row->integer("id");
-    line.visible_px = row->number("visible_px");
-    line.contrast = row->empty("contrast") ? 0.0 : row->number("contrast");
+    line.visible_px = row->number("length_px");
+    line.contrast = row->empty("contrast") ? 0.0 : std::abs(row->number("contrast"));
     frame.push_back(line);
   }
   return lines;
@@ -98,6 +101,8 @@ void DetectionScore::add(const std::vector<ImageLine>& detected,
     if (!nearest) continue;
     ++kind.right;
     kind.offset_squares += *nearest * *nearest;
+    // The distance of a floor edge is across the line, the truth's to the middle of what is seen.
+    if (seen.kind == LandmarkKind::kFloorEdge) continue;
     if (!seen.distance_m || !there[nearest_line].distance_m) continue;
     const double error = *seen.distance_m - *there[nearest_line].distance_m;
     kind.distance_squares += error * error;
@@ -142,8 +147,9 @@ std::string toText(const DetectionScore& score) {
   const auto& o = score.options();
   std::string text = "against the truth, within " + formatFixed(o.tolerance_px, 1) +
                      " px; recall of lines nearer than " + formatFixed(o.max_distance_m, 1) +
-                     " m, " + formatFixed(o.min_visible_px, 0) + " px or more in view, contrast " +
-                     formatFixed(o.min_contrast, 0) + " or more\n";
+                     " m (corners " + formatFixed(o.max_corner_distance_m, 1) + " m), " +
+                     formatFixed(o.min_visible_px, 0) + " px or more in view, contrast " +
+                     formatFixed(o.min_contrast, 0) + " or more (corners any)\n";
   for (int i = 0; i < kLandmarkKinds; ++i) {
     const auto& kind = score.of(static_cast<LandmarkKind>(i));
     std::string line = name(static_cast<LandmarkKind>(i));

@@ -40,6 +40,7 @@ struct DetectionScoreOptions {
   double least_overlap = 0.5;  ///< of the shorter one
   /// True lines a detector has to find; all others it may.
   double max_distance_m = 6.0;
+  double max_corner_distance_m = 3.81;  ///< depth-slope corners, whatever their contrast
   double min_visible_px = 60.0;
   double min_contrast = 15.0;
 };
