@@ -23,6 +23,8 @@ constexpr Verb kVerbs[] = {
     {"detect", "What the detectors see, frame by frame: overlays and a table",
      colonnade::addDetect},
     {"evaluate", "A trajectory against ground truth", colonnade::addEvaluate},
+    {"campaign", "Worlds x seeds x configurations in parallel, and one table",
+     colonnade::addCampaign},
     {"baseline", "The same log through one of MRPT's own methods", colonnade::addBaseline},
     {"compare", "The same log through Colonnade and MRPT's own methods, one table",
      colonnade::addCompare},

@@ -19,6 +19,7 @@ Action addInspect(CLI::App& verb);
 Action addImport(CLI::App& verb);
 Action addSimulate(CLI::App& verb);
 Action addEvaluate(CLI::App& verb);
+Action addCampaign(CLI::App& verb);
 Action addBaseline(CLI::App& verb);
 Action addCompare(CLI::App& verb);
 

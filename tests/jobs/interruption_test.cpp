@@ -26,10 +26,12 @@ class Interruption : public testing::JobTest {
 
 TEST_F(Interruption, ForwardsToTheChildrenAndBeginsNoFurtherJob) {
   const std::vector<Job> jobs{
-      shell("graceful", "trap 'echo bye; exit 130' INT; touch ready; while :; do sleep 0.05; done"),
-      shell("plain", "while ! test -e ready; do sleep 0.05; done; kill -INT $PPID; sleep 60"),
+      shell("graceful", "trap 'echo bye; exit 130' INT; touch one; while :; do sleep 0.05; done"),
+      shell("plain", "touch two; exec sleep 60"),
+      shell("interrupter",
+            "until test -e one && test -e two; do sleep 0.05; done; exec kill -INT $PPID"),
       shell("never", "touch begun")};
-  JobRunner runner({.parallel = 2});
+  JobRunner runner({.parallel = 3, .grace_s = 600.0});
   const auto results = runner.run(jobs);
   EXPECT_TRUE(runner.interrupted());
   EXPECT_EQ(Status::kInterrupted, results[0].status);
@@ -37,10 +39,10 @@ TEST_F(Interruption, ForwardsToTheChildrenAndBeginsNoFurtherJob) {
   EXPECT_EQ("bye\n", contentOf(jobs[0].log));
   EXPECT_EQ(Status::kInterrupted, results[1].status);
   EXPECT_EQ(SIGINT, results[1].signal);
-  EXPECT_EQ(Status::kNotStarted, results[2].status);
-  EXPECT_EQ("never", results[2].name);
+  EXPECT_EQ(Status::kNotStarted, results[3].status);
+  EXPECT_EQ("never", results[3].name);
   EXPECT_FALSE(std::filesystem::exists(folder_ / "begun"));
-  // The next campaign of this process is not affected.
+  // The next jobs of this process are not affected.
   EXPECT_TRUE(runner.run({shell("later", "exit 0")})[0].ok());
   EXPECT_FALSE(runner.interrupted());
 }

@@ -18,7 +18,7 @@ namespace colonnade::testing {
 class JobTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    std::string name = ::testing::TempDir() + "/colonnade_jobs_XXXXXX";
+    std::string name = std::filesystem::temp_directory_path() / "colonnade_jobs_XXXXXX";
     ASSERT_NE(nullptr, ::mkdtemp(name.data()));
     folder_ = name;
   }

@@ -42,9 +42,24 @@ std::vector<JobResult> JobRunner::run(const std::vector<Job>& jobs, const Observ
     if (observer) observer({kind, index, result, children.size(), ended, jobs.size()});
   };
 
+  const auto obey = [&](const std::vector<int>& arrived) {
+    for (const int signal : arrived) {
+      if (signal == SIGCHLD) continue;
+      const auto grace = std::chrono::duration<double>(interrupted_ ? 0.0 : options_.grace_s);
+      const auto deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(grace);
+      for (auto& [index, child] : children)
+        child.stop(SIGINT, JobResult::Status::kInterrupted, deadline);
+      interrupted_ = true;
+    }
+  };
+  const auto begins = [&] {
+    return !interrupted_ && next < jobs.size() &&
+           children.size() < static_cast<std::size_t>(options_.parallel);
+  };
+
   while (true) {
-    while (!interrupted_ && next < jobs.size() &&
-           children.size() < static_cast<std::size_t>(options_.parallel)) {
+    obey(signals.wait(0));  // before anything new begins
+    while (begins()) {
       children.emplace(next, Child(jobs[next]));
       tell(JobEvent::Kind::kBegan, next, nullptr);
       ++next;
@@ -62,18 +77,8 @@ std::vector<JobResult> JobRunner::run(const std::vector<Job>& jobs, const Observ
       tell(JobEvent::Kind::kEnded, index, &results[index]);
     }
     if (children.empty() && (interrupted_ || next == jobs.size())) break;
-    if (!interrupted_ && next < jobs.size() &&
-        children.size() < static_cast<std::size_t>(options_.parallel)) {
-      continue;  // a place is free
-    }
-    for (const int signal : signals.wait(timeoutOf(children))) {
-      if (signal == SIGCHLD) continue;
-      const auto grace = std::chrono::duration<double>(interrupted_ ? 0.0 : options_.grace_s);
-      const auto deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(grace);
-      for (auto& [index, child] : children)
-        child.stop(SIGINT, JobResult::Status::kInterrupted, deadline);
-      interrupted_ = true;
-    }
+    if (begins()) continue;
+    obey(signals.wait(timeoutOf(children)));
     for (auto& [index, child] : children) child.enforce(options_.grace_s);
   }
   return results;
