@@ -73,6 +73,7 @@ struct Record {
   std::vector<double> map_ms;               ///< of frames that added to the map
   std::map<std::string, std::size_t> lost;  ///< reason -> frames
   double path_length_m = 0.0;
+  double peak_rss_mb = 0.0;  ///< before anything is written
   bool interrupted = false;
 };
 
@@ -113,6 +114,7 @@ Record follow(RawlogSource& source, Baseline& baseline) {
     watch.lap();  // bookkeeping is no part of the method
   }
   record.interrupted = interrupt.requested();
+  record.peak_rss_mb = peakResidentMegabytes();
   progress.finish();
   return record;
 }
@@ -143,7 +145,7 @@ Json summarize(const Arguments& arguments, const Record& record, const Baseline&
   json["timing_ms"] = {{"frame", timingJson(record.frame_ms)},
                        {"read", timingJson(record.read_ms)},
                        {"map", timingJson(record.map_ms)}};
-  json["peak_rss_mb"] = peakResidentMegabytes();
+  json["peak_rss_mb"] = record.peak_rss_mb;
   json["damage"] = {{"ending", name(damage.ending)},
                     {"entries_read", damage.entries_read},
                     {"detail", damage.detail},
@@ -188,8 +190,8 @@ ExitCode run(const Arguments& arguments) {
     writeLandmarksCsv(folder / "landmarks.csv", landmarks);
 
   Json json = summarize(arguments, record, *baseline, source.damage());
-  if (!arguments.no_map_files)
-    json["map_bytes"] = sizeOf(folder / "map.ply") + sizeOf(folder / "landmarks.csv");
+  const auto map_bytes = sizeOf(folder / "map.ply") + sizeOf(folder / "landmarks.csv");
+  if (map_bytes > 0) json["map_bytes"] = map_bytes;
   std::string not_scored;
   if (!arguments.ground_truth.empty()) {
     try {

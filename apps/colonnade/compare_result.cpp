@@ -149,6 +149,8 @@ RunOutcome outcomeOf(const JobResult& job, const fs::path& folder, const fs::pat
     return outcome;
   }
   outcome.figures = figuresOf(summary, folder);
+  outcome.figures["wall_s"] = job.wall_s;
+  outcome.figures["cpu_s"] = job.cpu_s;
   if (outcome.failure.empty()) outcome.failure = judge(outcome.figures, folder);
   return outcome;
 }

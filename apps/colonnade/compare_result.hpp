@@ -18,7 +18,7 @@ struct RunOutcome {
   std::string remark;   ///< such as lost input; no failure
   /// ate_m, rpe_1m_percent, drift_percent, heading_deg, coverage, lost_frames, landmarks,
   /// landmarks_per_frame, points, points_per_frame, frame_ms_median, frame_ms_p95, map_ms_median,
-  /// peak_rss_mb, map_bytes, path_length_m, frames
+  /// peak_rss_mb, map_bytes, path_length_m, frames, wall_s, cpu_s
   std::map<std::string, double> figures;
 };
 

@@ -134,6 +134,21 @@ std::string timing(const ComparisonNotes& notes) {
          "MB: peak memory, such maps included. Map on disk: landmarks.csv or map.ply.";
 }
 
+/// Times are wall-clock times: says so when the runs had to share their processor.
+std::string disturbance(const std::vector<MethodOutcome>& methods) {
+  double wall_s = 0.0;
+  double cpu_s = 0.0;
+  for (const MethodOutcome& outcome : methods) {
+    for (const double value : outcome.values("wall_s")) wall_s += value;
+    for (const double value : outcome.values("cpu_s")) cpu_s += value;
+  }
+  if (cpu_s > 0.8 * wall_s) return "";
+  return "The machine was busy: the runs had a processor for only " +
+         formatFixed(100.0 * cpu_s / wall_s, 0) +
+         " % of their time, so every time per frame is too long; compare none with another "
+         "table.\n";
+}
+
 }  // namespace
 
 std::string toMarkdown(const std::vector<MethodOutcome>& methods, const ComparisonNotes& notes) {
@@ -144,7 +159,7 @@ std::string toMarkdown(const std::vector<MethodOutcome>& methods, const Comparis
       "Errors after a rigid SE(2) alignment, no scale, of the poses as estimated online. Random "
       "methods: median [least..greatest] of " +
       std::to_string(notes.random_runs) + " runs.\n";
-  text += timing(notes) + "\n";
+  text += timing(notes) + "\n" + disturbance(methods);
   text += "A frame: landmarks measured, or corners matched, in the mean.\n\n";
   for (const MethodOutcome& outcome : methods) {
     text += "- " + outcome.method.label + ": " + outcome.method.how;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 
@@ -51,6 +53,22 @@ TEST(KinectSlam, WritesItsPointMap) {
     if (line.rfind("element vertex ", 0) == 0) vertices = std::stol(line.substr(15));
   EXPECT_GT(vertices, 10000);
   EXPECT_EQ(static_cast<double>(vertices), baseline->figures().at("map_points"));
+  // Every point lies in the room, and some on the floor; grays are those of the pattern.
+  const Pose2 T_world_robot = bend(1).front();
+  long on_floor = 0;
+  for (long i = 0; i < vertices; ++i) {
+    std::array<char, 15> vertex{};
+    ASSERT_TRUE(file.read(vertex.data(), vertex.size()));
+    std::array<float, 3> p{};
+    std::memcpy(p.data(), vertex.data(), sizeof p);
+    const Eigen::Vector2d q = transform(T_world_robot, Eigen::Vector2d(p[0], p[1]));
+    ASSERT_TRUE(q.x() < 4.6 && q.y() > -1.9 && q.y() < 1.7 && p[2] > -0.1 && p[2] < 2.7) << i;
+    on_floor += std::abs(p[2]) < 0.03 ? 1 : 0;
+    ASSERT_EQ(vertex[12], vertex[13]);
+    ASSERT_GE(static_cast<unsigned char>(vertex[12]), 40);
+  }
+  EXPECT_GT(on_floor, vertices / 10);
+  EXPECT_EQ(std::ifstream::traits_type::eof(), file.peek());
   std::filesystem::remove_all(folder);
 }
 

@@ -4,10 +4,21 @@
 
 #include <mrpt/maps/CColouredPointsMap.h>
 
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <string>
+
 #include "colonnade/base/atomic_file.hpp"
-#include "colonnade/base/error.hpp"
 
 namespace colonnade {
+namespace {
+
+constexpr std::size_t kVertexBytes = 15;
+static_assert(std::endian::native == std::endian::little, "the file's byte order");
+
+}  // namespace
 
 struct ColouredMap::Impl {
   double spacing_m;
@@ -49,10 +60,22 @@ void ColouredMap::add(const Frame& frame, const Eigen::Isometry3d& T_world_camer
 std::size_t ColouredMap::size() const { return impl_->map.size(); }
 
 void ColouredMap::write(const std::filesystem::path& path) const {
-  writeFileAtomically(path, [&](const std::filesystem::path& temporary) {
-    if (!impl_->map.saveToPlyFile(temporary.string(), true))
-      throw Error(path.string() + ": MRPT could not write the point map");
-  });
+  std::string text = "ply\nformat binary_little_endian 1.0\nelement vertex " +
+                     std::to_string(impl_->map.size()) +
+                     "\nproperty float x\nproperty float y\nproperty float z\n"
+                     "property uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n";
+  text.reserve(text.size() + kVertexBytes * impl_->map.size());
+  for (std::size_t i = 0; i < impl_->map.size(); ++i) {
+    std::array<float, 3> point{};
+    std::array<float, 3> colour{};
+    impl_->map.getPointRGB(i, point[0], point[1], point[2], colour[0], colour[1], colour[2]);
+    std::array<char, kVertexBytes> vertex{};
+    std::memcpy(vertex.data(), point.data(), sizeof point);
+    for (std::size_t c = 0; c < colour.size(); ++c)
+      vertex[sizeof point + c] = static_cast<char>(std::lround(255.0f * colour[c]));
+    text.append(vertex.data(), vertex.size());
+  }
+  writeFileAtomically(path, text);
 }
 
 }  // namespace colonnade

@@ -21,7 +21,7 @@ class ColouredMap {
   /// T_world_camera: optical.
   void add(const Frame& frame, const Eigen::Isometry3d& T_world_camera);
   std::size_t size() const;
-  /// Binary PLY, written atomically.
+  /// Binary PLY with colours (MRPT's own writer leaves them out), written atomically.
   void write(const std::filesystem::path& path) const;
 
  private:
