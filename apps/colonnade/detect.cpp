@@ -8,6 +8,7 @@
 #include <opencv2/core/utility.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include "colonnade/accelerator/rtl_backend.hpp"
 #include "colonnade/base/atomic_file.hpp"
 #include "colonnade/base/log_path.hpp"
 #include "colonnade/base/text.hpp"
@@ -104,7 +105,7 @@ ExitCode detect(const DetectArguments& arguments) {
   const RunOptions options = readRunOptions(arguments.config, arguments.assignments);
   const SessionOptions& stages = options.session;
   const auto source = openInput(arguments.input, options.source);
-  const auto backend = makeEdgeLineBackend(arguments.backend, stages.edges);
+  const auto backend = makeImageStage(arguments.backend, stages.edges);
   MountingEstimator mounting(stages.motion, std::make_shared<CameraTracker>(stages.motion));
   DetectorBank detectors(stages.detectors);
 

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "colonnade/accelerator/rtl_backend.hpp"
 #include "colonnade/base/atomic_file.hpp"
 #include "colonnade/maps/landmark_csv.hpp"
 #include "interrupt.hpp"
@@ -108,7 +109,7 @@ ExitCode run(const RunArguments& arguments) {
     truth = readTum(arguments.ground_truth);
     if (truth.empty()) throw Error(arguments.ground_truth.string() + ": holds no pose");
   }
-  Session session(options.session, makeEdgeLineBackend(arguments.backend, options.session.edges));
+  Session session(options.session, makeImageStage(arguments.backend, options.session.edges));
   RawlogSource log(arguments.log, options.source);
   CameraFrames source(log, arguments.log);
 
@@ -155,7 +156,9 @@ ExitCode run(const RunArguments& arguments) {
   writeFileAtomically(folder / "summary.json",
                       json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
   std::printf("%sresults    %s\n", toText(json).c_str(), folder.c_str());
-  return conclude(arguments, summary, log.notes(), not_scored);
+  std::vector<std::string> notes = log.notes();
+  for (const std::string& note : session.imageStage().notes()) notes.push_back(note);
+  return conclude(arguments, summary, notes, not_scored);
 }
 
 }  // namespace
@@ -166,7 +169,8 @@ Action addRun(CLI::App& verb) {
   verb.add_option("-c,--config", arguments->config,
                   "INI file; what it does not name stays default");
   verb.add_option("-o,--output", arguments->output, "new folder; default: LOG's stem + _results");
-  verb.add_option("--backend", arguments->backend, "image stage: opencv, fixed")->capture_default_str();
+  verb.add_option("--backend", arguments->backend, "image stage: opencv, fixed, rtl")
+      ->capture_default_str();
   verb.add_option("--ground-truth", arguments->ground_truth, "robot poses, TUM file: adds a score");
   verb.add_option("--set", arguments->assignments, "Section.key=value, wins over the file")
       ->allow_extra_args(false);

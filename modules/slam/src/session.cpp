@@ -118,6 +118,7 @@ void Session::run(FrameSource& source, const Observer& observer) {
 }
 
 const EkfSlam& Session::filter() const { return stages_->filter; }
+const EdgeLineBackend& Session::imageStage() const { return *stages_->backend; }
 std::size_t Session::axisCount() const { return stages_->axes.axes().size(); }
 
 LandmarkMap Session::map() const {

@@ -39,6 +39,8 @@ class EdgeLineBackend {
   /// gray: CV_8UC1, else Error. An empty image gives no edges and no lines. A known view lets a
   /// backend leave out lines that can be neither vertical in space nor on the floor.
   EdgeLines extract(const cv::Mat& gray, const EdgeView& view = {});
+  /// What a user should know when all frames are done, a line each.
+  virtual std::vector<std::string> notes() const { return {}; }
 
  private:
   /// gray: CV_8UC1, not empty.

@@ -78,6 +78,7 @@ class Session {
   void run(FrameSource& source, const Observer& observer);
 
   const EkfSlam& filter() const;
+  const EdgeLineBackend& imageStage() const;
   /// Landmarks with what the book knows of them.
   LandmarkMap map() const;
   std::size_t axisCount() const;

@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+`default_nettype none
+
+/// Hough transform with vote memories for every angle of a small set: takes a word of PPC pixels in
+/// every clock, whatever the number of edges, and never waits (thesis figures 60 to 66, without
+/// multipliers).
+module hough_parallel #(
+  parameter int WIDTH = 120,
+  parameter int HEIGHT = 120,
+  parameter int PPC = 1,
+  parameter int ANGLES = 12,
+  parameter logic [1439:0] ANGLE_SET = accelerator_pkg::THESIS_SET,
+  parameter int REACH = 86
+) (
+  input  wire                          clk_i,
+  input  wire                          rst_i,
+  /* verilator lint_off UNUSEDSIGNAL */  // the other fields are for other stages
+  input  stream_pkg::parameters_t parameters0_i,
+  input  stream_pkg::parameters_t parameters1_i,
+  /* verilator lint_on UNUSEDSIGNAL */
+  input  wire                          valid_i,
+  input  stream_pkg::position_t   position_i,
+  input  wire  [PPC*4-1:0]             edges_i,
+  output logic                         cleared_o,
+  output logic                         room_o,
+  input  wire                          packet_idle_i,   // the former packet has ended
+  output logic                         scan_bank_o,
+  output logic                         begin_o,
+  output logic                         end_o,
+  output logic                         line_valid_o,
+  input  wire                          line_ready_i,
+  output logic [31:0]                  line_o
+);
+  localparam int VOTE_WIDTH = $clog2(2 * (WIDTH > HEIGHT ? WIDTH : HEIGHT) + 1);
+  localparam int BIN_WIDTH = $clog2(2 * REACH + 1);
+  assign room_o = 1'b1;
+
+  // One register on the way in, beside which the frame's parameters are chosen.
+  logic valid_q, row_counts_q;
+  stream_pkg::position_t position_q;
+  logic [PPC*4-1:0] edges_q;
+  logic [15:0] row_q, row;
+  assign row = position_i.first_row ? 16'd0 : row_q;
+  logic [15:0] first_row;
+  assign first_row = position_i.bank ? parameters1_i.first_row : parameters0_i.first_row;
+  always_ff @(posedge clk_i) begin
+    valid_q <= valid_i & position_i.active & ~rst_i;
+    position_q <= position_i;
+    edges_q <= edges_i;
+    row_counts_q <= row >= first_row;
+    if (valid_i && position_i.active) row_q <= position_i.last_word ? row + 1'b1 : row;
+  end
+
+  // Which angles are vertical: found for one bank and the other in turn, long before a frame's edges
+  // arrive.
+  logic turn_q;
+  logic [7:0] vertical_from, vertical_to;
+  assign vertical_from = turn_q ? parameters1_i.vertical_from : parameters0_i.vertical_from;
+  assign vertical_to = turn_q ? parameters1_i.vertical_to : parameters0_i.vertical_to;
+  always_ff @(posedge clk_i) turn_q <= !rst_i && !turn_q;
+
+  logic [ANGLES-1:0] vertical, allow_q, scan_vertical_q;
+  logic advance, scan, scanned;
+  logic [BIN_WIDTH-1:0] scan_bin;
+  logic [ANGLES*VOTE_WIDTH-1:0] votes;
+  for (genvar a = 0; a < ANGLES; a++) begin : g_angle
+    localparam logic signed [7:0] THETA = $signed(ANGLE_SET[a*8 +: 8] - 8'd90);
+    logic is_vertical, vertical0_q, vertical1_q, vertical_q, enable_q;
+    assign is_vertical = THETA >= $signed(vertical_from) && THETA <= $signed(vertical_to);
+    assign vertical[a] = scan_bank_o ? vertical1_q : vertical0_q;
+    always_ff @(posedge clk_i) begin
+      if (turn_q) vertical1_q <= is_vertical;
+      else vertical0_q <= is_vertical;
+      vertical_q <= position_i.bank ? vertical1_q : vertical0_q;
+      enable_q <= position_i.bank ? parameters1_i.enable[a] : parameters0_i.enable[a];
+    end
+    assign allow_q[a] = enable_q & (vertical_q | row_counts_q);
+    angle_votes #(
+      .ANGLE(32'(ANGLE_SET[a*8 +: 8])), .WIDTH(WIDTH), .HEIGHT(HEIGHT), .PPC(PPC), .REACH(REACH),
+      .VOTE_WIDTH(VOTE_WIDTH)
+    ) u_votes (
+      .clk_i(clk_i), .rst_i(rst_i), .valid_i(valid_q), .position_i(position_q), .edges_i(edges_q),
+      .allow_i(allow_q[a]), .advance_i(advance), .scan_i(scan), .scan_bank_i(scan_bank_o),
+      .scan_bin_i(scan_bin), .scanned_i(scanned), .votes_o(votes[a*VOTE_WIDTH +: VOTE_WIDTH])
+    );
+  end
+  always_ff @(posedge clk_i) scan_vertical_q <= vertical;
+
+  // The last votes need five clocks to reach their memory.
+  logic [5:0] complete_q, complete_bank_q;
+  always_ff @(posedge clk_i) begin
+    complete_bank_q <= {complete_bank_q[4:0], position_q.bank};
+    if (rst_i) complete_q <= '0;
+    else complete_q <= {complete_q[4:0], valid_q & position_q.last_row & position_q.last_word};
+  end
+
+  peak_scan #(
+    .ANGLES(ANGLES), .ANGLE_SET(ANGLE_SET), .REACH(REACH), .VOTE_WIDTH(VOTE_WIDTH)
+  ) u_scan (
+    .clk_i(clk_i), .rst_i(rst_i), .cleared_o(cleared_o), .request_i(complete_q[5]),
+    .request_bank_i(complete_bank_q[5]), .packet_idle_i(packet_idle_i), .vertical_i(scan_vertical_q),
+    .vertical_votes_i(scan_bank_o ? parameters1_i.vertical_votes : parameters0_i.vertical_votes),
+    .inclined_votes_i(scan_bank_o ? parameters1_i.inclined_votes : parameters0_i.inclined_votes),
+    .advance_o(advance), .scan_o(scan), .scan_bank_o(scan_bank_o), .scan_bin_o(scan_bin), .scanned_o(scanned),
+    .votes_i(votes), .begin_o(begin_o), .end_o(end_o), .line_valid_o(line_valid_o),
+    .line_ready_i(line_ready_i), .line_o(line_o)
+  );
+endmodule
+`default_nettype wire

@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+`default_nettype none
+
+/// The operators of one pixel: columns of three rows (upper row lowest) in, {sector, magnitude} five
+/// clocks later.
+module operators (
+  input  wire         clk_i,
+  input  wire  [23:0] left_i,
+  /* verilator lint_off UNUSEDSIGNAL */  // no operator weighs the middle pixel
+  input  wire  [23:0] middle_i,
+  /* verilator lint_on UNUSEDSIGNAL */
+  input  wire  [23:0] right_i,
+  output logic [12:0] gradient_o
+);
+  // Nine pixels: a b c over d e f over g h i.
+  logic [9:0] a, b, c, d, f, g, h, i;
+  assign {g, d, a} = {2'b00, left_i[23:16], 2'b00, left_i[15:8], 2'b00, left_i[7:0]};
+  assign {h, b} = {2'b00, middle_i[23:16], 2'b00, middle_i[7:0]};
+  assign {i, f, c} = {2'b00, right_i[23:16], 2'b00, right_i[15:8], 2'b00, right_i[7:0]};
+
+  // By direction: 0 along u, 1 along u+v, 2 along v, 3 along v-u.
+  logic [39:0] more_q, less_q;
+  logic [43:0] difference_q;
+  logic [39:0] size_q;
+  logic [3:0] negative_q, negative_d1_q;
+  always_ff @(posedge clk_i) begin
+    more_q[0 +: 10] <= c + f + i;
+    less_q[0 +: 10] <= a + d + g;
+    more_q[10 +: 10] <= f + h + i;
+    less_q[10 +: 10] <= a + b + d;
+    more_q[20 +: 10] <= g + h + i;
+    less_q[20 +: 10] <= a + b + c;
+    more_q[30 +: 10] <= d + g + h;
+    less_q[30 +: 10] <= b + c + f;
+    for (int k = 0; k < 4; k++) begin
+      difference_q[k*11 +: 11] <= {1'b0, more_q[k*10 +: 10]} - {1'b0, less_q[k*10 +: 10]};
+      size_q[k*10 +: 10] <= difference_q[k*11+10] ? 10'd0 - difference_q[k*11 +: 10]
+                                                  : difference_q[k*11 +: 10];
+      negative_q[k] <= difference_q[k*11+10];
+    end
+  end
+
+  // The largest; of equal ones 0 before 2 before 1 before 3.
+  logic axis, diagonal;
+  assign axis = size_q[20 +: 10] > size_q[0 +: 10];
+  assign diagonal = size_q[30 +: 10] > size_q[10 +: 10];
+  logic [9:0] axis_size_q, diagonal_size_q;
+  logic axis_q, diagonal_q;
+  always_ff @(posedge clk_i) begin
+    axis_q <= axis;
+    axis_size_q <= axis ? size_q[20 +: 10] : size_q[0 +: 10];
+    diagonal_q <= diagonal;
+    diagonal_size_q <= diagonal ? size_q[30 +: 10] : size_q[10 +: 10];
+    negative_d1_q <= negative_q;
+    if (diagonal_size_q > axis_size_q)
+      gradient_o <= {diagonal_q ? negative_d1_q[3] : negative_d1_q[1], diagonal_q, 1'b1, diagonal_size_q};
+    else
+      gradient_o <= {axis_q ? negative_d1_q[2] : negative_d1_q[0], axis_q, 1'b0, axis_size_q};
+  end
+endmodule
+`default_nettype wire

@@ -1,0 +1,202 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "colonnade/accelerator/accelerator.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+#include "colonnade/base/error.hpp"
+#include "colonnade/edges/accelerator_registers.hpp"
+
+namespace colonnade {
+namespace {
+
+constexpr int kStep = 1024;  // clocks between two looks
+constexpr std::uint32_t kAutoRestart = 0x80;
+constexpr std::size_t kFrameWords = 3;  // of a packet, beside the lines: id, count, clocks
+
+std::uint32_t halves(int high, int low) {
+  return static_cast<std::uint32_t>(high & 0xffff) << 16 | static_cast<std::uint32_t>(low & 0xffff);
+}
+
+int signedField(std::uint32_t word, int lsb, int width) {
+  return static_cast<int>(word << (32 - lsb - width)) >> (32 - width);
+}
+
+FixedLine toLine(std::uint32_t word) {
+  return {
+      signedField(word, registers::kLineThetaLsb, registers::kLineThetaWidth),
+      signedField(word, registers::kLineRhoLsb, registers::kLineRhoWidth),
+      static_cast<int>(word >> registers::kLineVotesLsb & ((1U << registers::kLineVotesWidth) - 1)),
+      static_cast<int>(word >> registers::kLineClassLsb & 1)};
+}
+
+std::string faultNames(std::uint32_t faults) {
+  static constexpr const char* kNames[] = {"a line too short", "a line too long",
+                                           "a frame too short", "data before a start of frame"};
+  std::string names;
+  for (std::size_t i = 0; i < std::size(kNames); ++i) {
+    if (faults >> i & 1) names += (names.empty() ? "" : ", ") + std::string(kNames[i]);
+  }
+  return names;
+}
+
+}  // namespace
+
+Accelerator::Accelerator(std::unique_ptr<AcceleratorTransport> transport, FixedShape shape)
+    : transport_(std::move(transport)), shape_(std::move(shape)) {
+  const std::uint32_t identity = transport_->readRegister(registers::kId);
+  const std::uint32_t version = transport_->readRegister(registers::kVersion);
+  if (identity != registers::kIdentity || version >> 16 != registers::kInterface >> 16) {
+    throw Error("accelerator: the device does not answer as one (id " + std::to_string(identity) +
+                ", version " + std::to_string(version) + "); load the bitstream of this release");
+  }
+  const std::uint32_t built = transport_->readRegister(registers::kShape);
+  const auto angles = static_cast<std::size_t>(built >> 8 & 255);
+  const int passes = static_cast<int>(built >> 16 & 255);
+  if (angles != shape_.angles_deg.size() || passes != shape_.hysteresis_passes) {
+    throw Error("accelerator: the device is built for " + std::to_string(angles) + " angles and " +
+                std::to_string(passes) + " passes, not " +
+                std::to_string(shape_.angles_deg.size()) + " and " +
+                std::to_string(shape_.hysteresis_passes));
+  }
+  const std::uint32_t size = transport_->readRegister(registers::kSize);
+  size_ = {static_cast<int>(size & 0xffff), static_cast<int>(size >> 16)};
+  // Four frames' pixels and, where angles share memories, all bins of all angles.
+  const int bins = 2 * rhoReach(size_.width, size_.height) + 1;
+  patience_ = 4 * (size_.area() + static_cast<int>(angles) * bins) + 100 * kStep;
+  start();
+}
+
+Accelerator::~Accelerator() = default;
+
+void Accelerator::start() {
+  transport_->writeRegister(registers::kFrameId, next_id_);
+  transport_->writeRegister(registers::kControl, kAutoRestart);
+  configured_ = false;
+}
+
+void Accelerator::recover() {
+  transport_->reset();
+  edges_.reset();
+  packet_.reset();
+  lost_ = on_the_way_;
+  on_the_way_ = 0;
+  start();
+}
+
+bool Accelerator::letDeviceTakeAll() {
+  for (int waited = 0; !transport_->allSent(); waited += kStep) {
+    if (waited > patience_) return false;
+    transport_->advance(kStep);
+  }
+  return true;
+}
+
+void Accelerator::configure(const FixedParameters& parameters) {
+  parameters_ = parameters;
+  configured_ = false;
+}
+
+std::uint16_t Accelerator::submit(const cv::Mat& gray) {
+  if (gray.type() != CV_8UC1 || gray.size() != size_) {
+    throw Error("accelerator: the device takes 8-bit gray images of " +
+                std::to_string(size_.width) + "x" + std::to_string(size_.height) + ", not " +
+                std::to_string(gray.cols) + "x" + std::to_string(gray.rows));
+  }
+  if (!canSubmit()) throw Error("accelerator: two frames are on their way; take a result first");
+  // A register written while a frame comes in would count for the next one; wait for its end.
+  if (!configured_ && letDeviceTakeAll()) {
+    const FixedParameters& p = parameters_;
+    transport_->writeRegister(registers::kThresholds, halves(p.high, p.low));
+    transport_->writeRegister(registers::kVotes, halves(p.inclined_votes, p.vertical_votes));
+    transport_->writeRegister(
+        registers::kVerticals,
+        static_cast<std::uint32_t>((p.vertical_to_deg & 255) << 8 | (p.vertical_from_deg & 255)));
+    transport_->writeRegister(registers::kFirstRow, halves(0, p.first_row));
+    for (std::size_t word = 0; 32 * word < shape_.angles_deg.size(); ++word) {
+      std::uint32_t bits = 0;
+      for (std::size_t b = 0; b < 32; ++b) {
+        const std::size_t a = 32 * word + b;
+        if (p.enabled.empty() || (a < p.enabled.size() && p.enabled[a])) bits |= 1U << b;
+      }
+      transport_->writeRegister(registers::kEnable0 + 4 * static_cast<std::uint32_t>(word), bits);
+    }
+    configured_ = true;
+  }
+  transport_->sendFrame(gray);
+  ++on_the_way_;
+  return next_id_++;
+}
+
+std::optional<AcceleratorResult> Accelerator::poll() {
+  if (lost_ > 0) return hang("lost with the frame before it");
+  if (on_the_way_ == 0) return std::nullopt;
+  if (!edges_) edges_ = transport_->takeEdges();
+  if (!packet_) packet_ = transport_->takePacket();
+  if (!edges_ || !packet_) return std::nullopt;
+  AcceleratorResult result = interpret(*edges_, *packet_);
+  edges_.reset();
+  packet_.reset();
+  --on_the_way_;
+  ++oldest_id_;
+  if (result.fault != AcceleratorFault::kNone) recover();
+  return result;
+}
+
+AcceleratorResult Accelerator::wait() {
+  if (on_the_way_ == 0 && lost_ == 0) throw Error("accelerator: no frame is on its way");
+  for (int waited = 0; waited <= patience_; waited += kStep) {
+    if (auto result = poll()) return std::move(*result);
+    transport_->advance(kStep);
+  }
+  const std::string missing = edges_ ? "no line packet" : packet_ ? "no whole edge map" : "nothing";
+  recover();
+  return hang(missing + " came out in " + std::to_string(patience_) + " clocks");
+}
+
+AcceleratorResult Accelerator::hang(const std::string& where) {
+  AcceleratorResult result;
+  result.frame_id = oldest_id_++;
+  result.fault = AcceleratorFault::kHang;
+  result.detail = where;
+  --lost_;
+  return result;
+}
+
+AcceleratorResult Accelerator::interpret(const std::vector<std::uint8_t>& edges,
+                                         const std::vector<std::uint32_t>& packet) {
+  AcceleratorResult result;
+  result.frame_id = oldest_id_;
+  const auto bad = [&](const std::string& detail) {
+    result.fault = AcceleratorFault::kBadPacket;
+    result.detail = detail;
+    return result;
+  };
+  if (packet.size() < kFrameWords) return bad("a line packet without its frame");
+  if (packet.front() != oldest_id_) {
+    return bad("the packet of frame " + std::to_string(packet.front()) + " instead of " +
+               std::to_string(oldest_id_));
+  }
+  const std::uint32_t counted = packet[packet.size() - 2];
+  if ((counted & 0xffff) != packet.size() - kFrameWords) return bad("a wrong number of lines");
+  result.clocks = packet.back();
+  if (counted >> 16 != 0) {
+    result.fault = AcceleratorFault::kBadFrame;
+    result.detail = faultNames(counted >> 16);
+    return result;
+  }
+  for (std::size_t i = 1; i + 2 < packet.size(); ++i) {
+    result.found.lines.push_back(toLine(packet[i]));
+  }
+  std::sort(result.found.lines.begin(), result.found.lines.end(), [](const auto& a, const auto& b) {
+    return std::tie(a.theta_deg, a.rho) < std::tie(b.theta_deg, b.rho);
+  });
+  result.found.edges.create(size_, CV_8UC1);
+  std::transform(edges.begin(), edges.end(), result.found.edges.data, [](std::uint8_t byte) {
+    return static_cast<std::uint8_t>(byte & 8 ? 1 + (byte & 7) : 0);
+  });
+  return result;
+}
+
+}  // namespace colonnade

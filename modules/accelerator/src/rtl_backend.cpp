@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "colonnade/accelerator/rtl_backend.hpp"
+
+#include <algorithm>
+#include <opencv2/core.hpp>
+
+#include "colonnade/accelerator/model_transport.hpp"
+#include "colonnade/base/error.hpp"
+
+namespace colonnade {
+namespace {
+
+std::string sizeName(int width, int height) {
+  return std::to_string(width) + "x" + std::to_string(height);
+}
+
+}  // namespace
+
+RtlBackend::RtlBackend(const EdgeOptions& options, Connect connect)
+    : options_(options), connect_(std::move(connect)), stage_(runShape()) {}
+
+RtlBackend::Device& RtlBackend::deviceFor(const cv::Size& size) {
+  const auto [entry, is_new] = devices_.try_emplace({size.width, size.height});
+  if (is_new) {
+    if (auto transport = connect_(size)) {
+      entry->second.accelerator =
+          std::make_unique<Accelerator>(std::move(transport), stage_.shape());
+    }
+  }
+  return entry->second;
+}
+
+std::string RtlBackend::differenceOf(const AcceleratorResult& result,
+                                     const FixedResult& expected) const {
+  switch (result.fault) {
+    case AcceleratorFault::kHang:
+      return "device hangs";
+    case AcceleratorFault::kBadFrame:
+      return "device got a broken frame";
+    case AcceleratorFault::kBadPacket:
+      return "device sent a broken packet";
+    case AcceleratorFault::kNone:
+      break;
+  }
+  if (cv::norm(result.found.edges, expected.edges, cv::NORM_L1) != 0.0) return "edges differ";
+  if (result.found.lines != expected.lines) return "lines differ";
+  return {};
+}
+
+EdgeLines RtlBackend::process(const cv::Mat& gray, const EdgeView& view) {
+  const auto parameters = runParameters(stage_.shape(), options_, view, gray.cols, gray.rows);
+  Device& device = deviceFor(gray.size());
+  if (device.accelerator) {
+    device.accelerator->configure(parameters);
+    device.accelerator->submit(gray);
+  }
+  FixedResult expected = stage_.process(gray, parameters);
+  if (device.accelerator) {
+    const auto result = device.accelerator->wait();
+    const std::string difference = differenceOf(result, expected);
+    if (difference.empty()) {
+      device.clocks.push_back(result.clocks);
+    } else if (faults_[difference].frames++ == 0) {
+      faults_[difference].first =
+          "frame " + std::to_string(frame_) + (result.detail.empty() ? "" : ": " + result.detail);
+    }
+  }
+  ++frame_;
+  return {std::move(expected.edges), toHoughLines(expected.lines, gray.cols, gray.rows, options_)};
+}
+
+std::vector<std::string> RtlBackend::notes() const {
+  std::vector<std::string> notes;
+  for (const auto& [size, device] : devices_) {
+    const std::string name = sizeName(size.first, size.second);
+    if (!device.accelerator) {
+      std::string sizes;
+      for (const auto& model : modelSizes()) sizes += " " + sizeName(model.width, model.height);
+      notes.push_back("rtl: no model for " + name + ", left to the CPU; there are:" + sizes);
+    } else if (!device.clocks.empty()) {
+      auto clocks = device.clocks;
+      std::nth_element(clocks.begin(),
+                       clocks.begin() + static_cast<std::ptrdiff_t>(clocks.size() / 2),
+                       clocks.end());
+      notes.push_back("rtl: " + std::to_string(clocks.size()) + " frames of " + name +
+                      " equal to fixed, " + std::to_string(clocks[clocks.size() / 2]) +
+                      " clocks from first pixel to last line (median)");
+    }
+  }
+  for (const auto& [what, fault] : faults_) {
+    notes.push_back("rtl: " + what + " in " + std::to_string(fault.frames) +
+                    " frames, answered by the CPU; first in " + fault.first);
+  }
+  return notes;
+}
+
+std::unique_ptr<EdgeLineBackend> makeImageStage(const std::string& name,
+                                                const EdgeOptions& options) {
+  if (name == "rtl") return std::make_unique<RtlBackend>(options, makeModelTransport);
+  try {
+    return makeEdgeLineBackend(name, options);
+  } catch (const Error& error) {
+    throw Error(std::string(error.what()) + ", rtl", error.code());
+  }
+}
+
+}  // namespace colonnade

@@ -1,0 +1,314 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "VFull2.h"
+#include "VThesis1.h"
+#include "VThesis4.h"
+#include "colonnade/edges/accelerator_registers.hpp"
+#include "colonnade/edges/fixed_stage.hpp"
+#include "shared_data.hpp"
+#include "simulation.hpp"
+
+namespace colonnade {
+namespace {
+
+/// What a model was built with.
+template <class ModelType, int kWidth, int kHeight, int kPpc, int kPasses, bool kFull>
+struct Design {
+  using Model = ModelType;
+  static constexpr cv::Size size() { return {kWidth, kHeight}; }
+  static constexpr int ppc = kPpc;
+  static FixedShape shape() {
+    FixedShape shape;
+    if (kFull) {
+      shape.angles_deg.assign(kFullSet.begin(), kFullSet.end());
+    } else {
+      shape.angles_deg.assign(kThesisSet.begin(), kThesisSet.end());
+    }
+    shape.hysteresis_passes = kPasses;
+    return shape;
+  }
+};
+using Designs =
+    ::testing::Types<Design<VThesis1, 120, 120, 1, 0, false>,
+                     Design<VThesis4, 120, 120, 4, 0, false>, Design<VFull2, 80, 51, 2, 2, true>>;
+
+struct Packet {
+  std::uint32_t frame_id;
+  std::vector<FixedLine> lines;
+  std::uint32_t faults;
+  std::uint32_t count;
+};
+
+template <class D>
+class Rtl : public ::testing::Test {
+ protected:
+  Rtl() { simulation.write(registers::kControl, 0x80); }
+
+  void configure(const FixedParameters& p) {
+    auto word = [](int high, int low) {
+      return static_cast<std::uint32_t>(high) << 16 | static_cast<std::uint32_t>(low);
+    };
+    simulation.write(registers::kThresholds, word(p.high, p.low));
+    simulation.write(registers::kVotes, word(p.inclined_votes, p.vertical_votes));
+    simulation.write(
+        registers::kVerticals,
+        static_cast<std::uint32_t>((p.vertical_to_deg & 255) << 8 | (p.vertical_from_deg & 255)));
+    simulation.write(registers::kFirstRow, static_cast<std::uint32_t>(p.first_row));
+    for (std::uint32_t i = 0; i < 6; ++i) {
+      std::uint32_t bits = 0;
+      for (std::size_t b = 0; b < 32; ++b) {
+        const std::size_t a = 32 * i + b;
+        if (p.enabled.empty() || (a < p.enabled.size() && p.enabled[a])) bits |= 1U << b;
+      }
+      simulation.write(registers::kEnable0 + 4 * i, bits);
+    }
+  }
+
+  /// Queues the words of an image; `cut` may bend them before they leave.
+  void send(const cv::Mat& image) {
+    for (int v = 0; v < image.rows; ++v) {
+      for (int u = 0; u < image.cols; u += D::ppc) {
+        hdl::VideoWord word{0, u == 0 && v == 0, u + D::ppc == image.cols};
+        for (int p = 0; p < D::ppc; ++p) {
+          word.data |= static_cast<std::uint32_t>(image.at<unsigned char>(v, u + p)) << (8 * p);
+        }
+        simulation.video.push_back(word);
+      }
+    }
+  }
+
+  void runUntilPackets(std::size_t count, int limit = 4'000'000) {
+    while ((simulation.packet_ends.size() < count || !edgesComplete(count)) && limit-- > 0) {
+      simulation.cycle();
+    }
+    ASSERT_GE(simulation.packet_ends.size(), count) << "the design hangs";
+  }
+  bool edgesComplete(std::size_t frames) const {
+    return simulation.edges.size() * D::ppc >= frames * static_cast<std::size_t>(D::size().area());
+  }
+
+  Packet packet(std::size_t index) const {
+    const std::size_t begin = index == 0 ? 0 : simulation.packet_ends[index - 1];
+    const std::size_t end = simulation.packet_ends[index];
+    Packet result{simulation.lines[begin],
+                  {},
+                  simulation.lines[end - 2] >> 16,
+                  simulation.lines[end - 2] & 0xffff};
+    const auto signedField = [](std::uint32_t word, int low, int width) {
+      return static_cast<int>(word << (32 - low - width)) >> (32 - width);
+    };
+    for (std::size_t i = begin + 1; i + 2 < end; ++i) {
+      const std::uint32_t word = simulation.lines[i];
+      result.lines.push_back(
+          {signedField(word, registers::kLineThetaLsb, registers::kLineThetaWidth),
+           signedField(word, registers::kLineRhoLsb, registers::kLineRhoWidth),
+           static_cast<int>(word & 0x7ff), static_cast<int>(word >> 31)});
+    }
+    std::sort(result.lines.begin(), result.lines.end(), [](const auto& a, const auto& b) {
+      return std::tie(a.theta_deg, a.rho) < std::tie(b.theta_deg, b.rho);
+    });
+    return result;
+  }
+
+  /// Compares a frame's edge map and lines with the model of the arithmetic.
+  void expectExact(std::size_t index, const cv::Mat& image, const FixedParameters& p) {
+    const auto expected = stage.process(image, p);
+    const auto found = packet(index);
+    EXPECT_EQ(found.count, found.lines.size());
+    EXPECT_TRUE(found.lines == expected.lines) << "frame " << index << ": " << found.lines.size()
+                                               << " lines, not " << expected.lines.size();
+    const std::size_t words = static_cast<std::size_t>(D::size().area() / D::ppc);
+    int wrong = 0;
+    for (std::size_t i = 0; i < words; ++i) {
+      const auto& word = simulation.edges[index * words + i];
+      const int v = static_cast<int>(i) * D::ppc / D::size().width;
+      const int u = static_cast<int>(i) * D::ppc % D::size().width;
+      wrong += word.start_of_frame != (i == 0);
+      wrong += word.end_of_line != (u + D::ppc == D::size().width);
+      for (int k = 0; k < D::ppc; ++k) {
+        const std::uint32_t byte = word.data >> (8 * k) & 0xff;
+        const std::uint32_t code = byte & 8 ? 1 + (byte & 7) : 0;
+        wrong += code != expected.edges.at<unsigned char>(v, u + k);
+      }
+    }
+    EXPECT_EQ(wrong, 0) << "frame " << index;
+  }
+
+  cv::Mat randomImage(unsigned seed) const {
+    cv::RNG random(seed);
+    cv::Mat image(D::size(), CV_8UC1, cv::Scalar(random.uniform(0, 256)));
+    if (seed % 3 == 0) random.fill(image, cv::RNG::UNIFORM, 0, 256);
+    for (int i = random.uniform(0, 12); i > 0; --i) {
+      const auto point = [&] {
+        return cv::Point(random.uniform(-20, image.cols + 20),
+                         random.uniform(-20, image.rows + 20));
+      };
+      cv::line(image, point(), point(), cv::Scalar(random.uniform(0, 256)), random.uniform(1, 9));
+    }
+    return image;
+  }
+  FixedParameters randomParameters(unsigned seed) const {
+    std::mt19937 random(seed);
+    FixedParameters p;
+    p.low = static_cast<int>(random() % 200);
+    p.high = p.low + static_cast<int>(random() % 300);
+    p.vertical_votes = 3 + static_cast<int>(random() % 20);
+    p.inclined_votes = 3 + static_cast<int>(random() % 20);
+    p.vertical_from_deg = -static_cast<int>(random() % 50);
+    p.vertical_to_deg = static_cast<int>(random() % 50);
+    p.first_row = static_cast<int>(random() % 60);
+    for (std::size_t a = 0; a < stage.shape().angles_deg.size(); ++a) {
+      p.enabled.push_back(random() % 8 != 0);
+    }
+    return p;
+  }
+
+  hdl::Simulation<typename D::Model> simulation;
+  FixedStage stage{D::shape()};
+};
+TYPED_TEST_SUITE(Rtl, Designs);
+
+TYPED_TEST(Rtl, SaysWhatItIs) {
+  EXPECT_EQ(this->simulation.read(registers::kId), registers::kIdentity);
+  EXPECT_EQ(this->simulation.read(registers::kVersion), registers::kInterface);
+  EXPECT_EQ(this->simulation.read(registers::kSize),
+            static_cast<std::uint32_t>(TypeParam::size().height << 16 | TypeParam::size().width));
+  const std::uint32_t shape = this->simulation.read(registers::kShape);
+  EXPECT_EQ(shape & 255, static_cast<std::uint32_t>(TypeParam::ppc));
+  EXPECT_EQ(shape >> 8 & 255, this->stage.shape().angles_deg.size());
+}
+
+TYPED_TEST(Rtl, GivesTheBitsOfTheModelForEveryFrameWithRandomStalls) {
+  for (unsigned seed = 1; seed <= 40; ++seed) {
+    const auto p = this->randomParameters(seed);
+    this->configure(p);
+    auto& stalls = this->simulation.stalls;
+    stalls = {};
+    if (seed % 2 == 0)
+      stalls = {static_cast<int>(seed * 97 % 700), static_cast<int>(seed * 53 % 700),
+                static_cast<int>(seed * 31 % 900)};
+    const cv::Mat image = this->randomImage(seed);
+    this->send(image);
+    this->runUntilPackets(seed);
+    if (this->HasFatalFailure()) return;
+    this->expectExact(seed - 1, image, p);
+    EXPECT_EQ(this->packet(seed - 1).faults, 0U);
+    EXPECT_EQ(this->packet(seed - 1).frame_id, seed - 1);
+    if (this->HasFailure()) return;
+  }
+  EXPECT_EQ(this->simulation.read(registers::kStatus), 0U);
+}
+
+TYPED_TEST(Rtl, TakesFramesWithoutAGap) {
+  const auto p = FixedParameters{60, 90, 8, 8, -10, 10, 0, {}};
+  this->configure(p);
+  for (unsigned i = 0; i < 5; ++i) this->send(this->randomImage(3 * i + 1));
+  this->runUntilPackets(5);
+  if (this->HasFatalFailure()) return;
+  for (unsigned i = 0; i < 5; ++i) this->expectExact(i, this->randomImage(3 * i + 1), p);
+  const auto& starts = this->simulation.frame_starts;
+  ASSERT_EQ(starts.size(), 5U);
+  for (std::size_t i = 1; i < starts.size() && this->stage.shape().angles_deg.size() == 12; ++i) {
+    EXPECT_EQ(starts[i] - starts[i - 1],
+              static_cast<std::uint64_t>(TypeParam::size().area() / TypeParam::ppc));
+  }
+}
+
+TYPED_TEST(Rtl, KeepsFramesApartWhenTheSinksAreSlow) {
+  const auto p = FixedParameters{60, 90, 8, 8, -10, 10, 0, {}};
+  this->configure(p);
+  this->simulation.stalls = {100, 500, 1018};
+  for (unsigned i = 0; i < 4; ++i) this->send(this->randomImage(3 * i + 1));
+  this->runUntilPackets(4);
+  if (this->HasFatalFailure()) return;
+  for (unsigned i = 0; i < 4; ++i) this->expectExact(i, this->randomImage(3 * i + 1), p);
+}
+
+TYPED_TEST(Rtl, MendsBrokenFramesAndSaysSo) {
+  const FixedParameters p{60, 90, 8, 8, -10, 10, 0, {}};
+  this->configure(p);
+  auto& simulation = this->simulation;
+  const std::size_t words_of_line =
+      static_cast<std::size_t>(TypeParam::size().width / TypeParam::ppc);
+  std::size_t frames = 0;
+  const auto expectFaults = [&](std::uint32_t faults, const char* what) {
+    // A broken frame is followed by a whole one, which must be right.
+    const cv::Mat image = this->randomImage(7);
+    this->send(image);
+    frames += 2;
+    this->runUntilPackets(frames);
+    if (this->HasFatalFailure()) return;
+    EXPECT_EQ(this->packet(frames - 2).faults, faults & 7) << what;
+    EXPECT_EQ(simulation.read(registers::kStatus) & 31, faults) << what;
+    simulation.write(registers::kStatus, 31);
+    EXPECT_EQ(simulation.read(registers::kStatus), 0U) << what;
+    this->expectExact(frames - 1, image, p);
+    EXPECT_EQ(this->packet(frames - 1).faults, 0U) << what;
+  };
+
+  this->send(this->randomImage(1));  // the second line lacks three words
+  simulation.video.erase(simulation.video.begin() + static_cast<std::ptrdiff_t>(words_of_line + 2),
+                         simulation.video.begin() + static_cast<std::ptrdiff_t>(words_of_line + 5));
+  expectFaults(1, "short line");
+
+  this->send(this->randomImage(1));  // the third line goes on
+  simulation.video.insert(
+      simulation.video.begin() + static_cast<std::ptrdiff_t>(2 * words_of_line + 5), 4,
+      hdl::VideoWord{});
+  expectFaults(2, "long line");
+
+  this->send(this->randomImage(1));  // the last ten lines are missing
+  simulation.video.resize(simulation.video.size() - 10 * words_of_line);
+  expectFaults(4, "short frame");
+
+  this->send(this->randomImage(1));  // two lines too many
+  for (std::size_t i = 0; i < 2 * words_of_line; ++i) {
+    simulation.video.push_back({0, false, (i + 1) % words_of_line == 0});
+  }
+  expectFaults(8, "data without a start of frame");
+
+  this->send(this->randomImage(1));  // a register written in mid-frame counts for the next one
+  for (int i = 0; i < 200; ++i) simulation.cycle();
+  simulation.write(registers::kThresholds, 90U << 16 | 60U);
+  expectFaults(16, "register write in mid-frame");
+}
+
+TYPED_TEST(Rtl, KeepsToItsClocks) {
+  COLONNADE_REQUIRE_RECORDING(folder, "corridor_xtion");
+  cv::Mat image = cv::imread((folder / "rgb/0000000005.400000.jpg").string(), cv::IMREAD_GRAYSCALE);
+  ASSERT_FALSE(image.empty());
+  cv::resize(image, image, TypeParam::size(), 0, 0, cv::INTER_AREA);
+  const FixedParameters p{18, 48, 12, 12, -10, 10, 0, {}};
+  this->configure(p);
+  this->send(image);
+  this->runUntilPackets(1);
+  this->expectExact(0, image, p);
+  EXPECT_GT(this->packet(0).count, 3U);
+  const auto cycles = static_cast<int>(this->simulation.read(registers::kCycles));
+  const auto tail = static_cast<int>(this->simulation.read(registers::kTailCycles));
+  const int passes = this->stage.shape().hysteresis_passes;
+  const int words = TypeParam::size().width / TypeParam::ppc;
+  const int bins = 2 * rhoReach(TypeParam::size().width, TypeParam::size().height) + 1;
+  this->RecordProperty("cycles", cycles);
+  this->RecordProperty("tail_cycles", tail);
+  std::printf(
+      "%dx%d, %d px/clk, %d passes, %zu angles: %d clocks, %d after the last pixel, %u lines\n",
+      TypeParam::size().width, TypeParam::size().height, TypeParam::ppc, passes,
+      this->stage.shape().angles_deg.size(), cycles, tail, this->packet(0).count);
+  if (this->stage.shape().angles_deg.size() == 12) {
+    EXPECT_LE(tail, (4 + passes) * words + bins + 60);
+    if (TypeParam::size().width == 120) {
+      EXPECT_LE(cycles, TypeParam::ppc == 1 ? 15400 : 4400);
+      EXPECT_LE(tail, 1000);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace colonnade
