@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -185,7 +186,10 @@ TYPED_TEST(Rtl, SaysWhatItIs) {
 }
 
 TYPED_TEST(Rtl, GivesTheBitsOfTheModelForEveryFrameWithRandomStalls) {
-  for (unsigned seed = 1; seed <= 40; ++seed) {
+  // COLONNADE_RTL_FRAMES=1000 for the long comparison.
+  const char* wanted = std::getenv("COLONNADE_RTL_FRAMES");
+  const unsigned frames = wanted ? static_cast<unsigned>(std::atoi(wanted)) : 40;
+  for (unsigned seed = 1; seed <= frames; ++seed) {
     const auto p = this->randomParameters(seed);
     this->configure(p);
     auto& stalls = this->simulation.stalls;
