@@ -133,6 +133,7 @@ LandmarkMap truthOf(const MrclamImportResult& result) {
     record.id = LandmarkId{landmark.subject};
     record.p_world = record.extent_a = record.extent_b = landmark.p_world;
     record.covariance.diagonal() = landmark.sigma.cwiseAbs2();
+    record.observations = static_cast<int>(landmark.readings);
     map.push_back(record);
   }
   std::sort(map.begin(), map.end(), [](const auto& a, const auto& b) { return a.id < b.id; });

@@ -25,6 +25,8 @@ constexpr Verb kVerbs[] = {
     {"evaluate", "A trajectory against ground truth", colonnade::addEvaluate},
     {"campaign", "Worlds x seeds x configurations in parallel, and one table",
      colonnade::addCampaign},
+    {"textbook", "The EKF-SLAM experiment of textbooks: rounds of a cloister, errors plotted",
+     colonnade::addTextbook},
     {"baseline", "The same log through one of MRPT's own methods", colonnade::addBaseline},
     {"compare", "The same log through Colonnade and MRPT's own methods, one table",
      colonnade::addCompare},

@@ -11,6 +11,7 @@
 #include "colonnade/accelerator/rtl_backend.hpp"
 #include "colonnade/base/atomic_file.hpp"
 #include "colonnade/maps/landmark_csv.hpp"
+#include "colonnade/slam/range_bearing_session.hpp"
 #include "interrupt.hpp"
 #include "progress.hpp"
 #include "results_folder.hpp"
@@ -69,6 +70,28 @@ class CameraFrames : public FrameSource {
   std::optional<Frame> first_;
 };
 
+/// Whether a log holds readings of landmarks and no camera frame. A camera log is known by its
+/// first frame or two.
+bool isRangeBearingLog(const fs::path& log, const SourceOptions& options) {
+  RawlogSource source(log, options);
+  bool readings = false;
+  while (const auto frame = source.next()) {
+    if (!frame->gray.empty() || !frame->depth_m.empty()) return false;
+    readings = readings || frame->range_bearing.has_value();
+  }
+  return readings;
+}
+
+/// What summary.json says beside the figures of every run.
+void describe(const Session&, nlohmann::ordered_json&) {}
+void describe(const RangeBearingSession& session, nlohmann::ordered_json& json) {
+  const IdentityScore score = session.identityScore();
+  json["association"] = {{"readings_with_identity", score.readings},
+                         {"associated", score.associated},
+                         {"right", score.right},
+                         {"right_share", score.rightShare()}};
+}
+
 /// The score, or why there is none: a wrong truth must not cost the map.
 std::optional<TrajectoryScore> scoreAgainst(const Trajectory& truth, const RunRecorder& recorder,
                                             std::string& why_not) {
@@ -101,18 +124,20 @@ ExitCode conclude(const RunArguments& arguments, const RunSummary& summary,
   return summary.damage.any() ? ExitCode::kLossy : ExitCode::kDone;
 }
 
-ExitCode run(const RunArguments& arguments) {
-  cv::setNumThreads(1);  // one frame is too little work to share; results never depend on it
-  const RunOptions options = readRunOptions(arguments.config, arguments.assignments);
-  Trajectory truth;
-  if (!arguments.ground_truth.empty()) {
-    truth = readTum(arguments.ground_truth);
-    if (truth.empty()) throw Error(arguments.ground_truth.string() + ": holds no pose");
-  }
-  Session session(options.session, makeImageStage(arguments.backend, options.session.edges));
-  RawlogSource log(arguments.log, options.source);
-  CameraFrames source(log, arguments.log);
+std::vector<std::string> notesOf(const Session& session) { return session.imageStage().notes(); }
+std::vector<std::string> notesOf(const RangeBearingSession&) { return {}; }
 
+struct RunInputs {
+  const RunArguments& arguments;
+  const RunOptions& options;
+  const Trajectory& truth;
+  RawlogSource& log;
+};
+
+/// A session over a source, into a results folder.
+template <class AnySession>
+ExitCode runSession(AnySession& session, FrameSource& source, const RunInputs& inputs) {
+  const auto& [arguments, options, truth, log] = inputs;
   const fs::path folder = makeResultsFolder(arguments.output, arguments.log);
   writeFileAtomically(folder / "config.ini", effectiveConfig(options));
   MapRecorder maps(folder, options.maps, options.scans);
@@ -121,7 +146,7 @@ ExitCode run(const RunArguments& arguments) {
   const InterruptGuard interrupt;
   const auto start = std::chrono::steady_clock::now();
 
-  session.run(source, [&](const Frame& frame, const StepReport& report, const Session& now) {
+  session.run(source, [&](const Frame& frame, const StepReport& report, const AnySession& now) {
     recorder.add(frame, report, now.filter());
     maps.add(frame, now.filter().pose(), now.filter().poseCovariance(),
              report.motion.T_previous_robot, report.motion.covariance);
@@ -152,13 +177,35 @@ ExitCode run(const RunArguments& arguments) {
   contents.trajectory = recorder.trajectory();
   if (summary.score) contents.ground_truth = inWorldOf(*summary.score, truth);
   summary.maps = maps.finish(contents);
-  const auto json = toJson(summary, recorder, session.filter().health());
+  auto json = toJson(summary, recorder, session.filter().health());
+  describe(session, json);
   writeFileAtomically(folder / "summary.json",
                       json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
   std::printf("%sresults    %s\n", toText(json).c_str(), folder.c_str());
   std::vector<std::string> notes = log.notes();
-  for (const std::string& note : session.imageStage().notes()) notes.push_back(note);
+  for (const std::string& note : notesOf(session)) notes.push_back(note);
   return conclude(arguments, summary, notes, not_scored);
+}
+
+ExitCode run(const RunArguments& arguments) {
+  cv::setNumThreads(1);  // one frame is too little work to share; results never depend on it
+  const RunOptions options = readRunOptions(arguments.config, arguments.assignments);
+  Trajectory truth;
+  if (!arguments.ground_truth.empty()) {
+    truth = readTum(arguments.ground_truth);
+    if (truth.empty()) throw Error(arguments.ground_truth.string() + ": holds no pose");
+  }
+  const bool readings_only = isRangeBearingLog(arguments.log, options.source);
+  RawlogSource log(arguments.log, options.source);
+  const RunInputs inputs{arguments, options, truth, log};
+  if (readings_only) {
+    RangeBearingSession session(options.range_bearing, options.session.filter,
+                                options.session.motion);
+    return runSession(session, log, inputs);
+  }
+  Session session(options.session, makeImageStage(arguments.backend, options.session.edges));
+  CameraFrames source(log, arguments.log);
+  return runSession(session, source, inputs);
 }
 
 }  // namespace
@@ -178,7 +225,8 @@ Action addRun(CLI::App& verb) {
       "Examples:\n"
       "  colonnade run rawlogs/corridor.rawlog\n"
       "  colonnade run corridor.rawlog -o map --ground-truth corridor_ground_truth.tum\n"
-      "  colonnade run corridor.rawlog --set Filter.invariant=false --set Axes.enabled=false");
+      "  colonnade run corridor.rawlog --set Filter.invariant=false --set Axes.enabled=false\n"
+      "  colonnade run robot3.rawlog --set RangeBearing.use_ids=false   (landmark readings)");
   return [arguments] { return run(*arguments); };
 }
 

@@ -8,6 +8,7 @@
 
 #include "colonnade/frames/rawlog_source.hpp"
 #include "colonnade/maps/map_recorder.hpp"
+#include "colonnade/slam/range_bearing_options.hpp"
 #include "colonnade/slam/session.hpp"
 
 namespace colonnade {
@@ -17,6 +18,7 @@ namespace colonnade {
 struct RunOptions {
   SourceOptions source;
   SessionOptions session;
+  RangeBearingOptions range_bearing;  ///< logs of landmark readings without images
   ScanOptions scans;
   MapOptions maps;
 
@@ -24,6 +26,7 @@ struct RunOptions {
   void each(Take&& take) {
     take(source);
     session.each(take);
+    take(range_bearing);
     take(scans);
     take(maps);
   }

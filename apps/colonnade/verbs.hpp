@@ -20,6 +20,7 @@ Action addImport(CLI::App& verb);
 Action addSimulate(CLI::App& verb);
 Action addEvaluate(CLI::App& verb);
 Action addCampaign(CLI::App& verb);
+Action addTextbook(CLI::App& verb);
 Action addBaseline(CLI::App& verb);
 Action addCompare(CLI::App& verb);
 

@@ -85,8 +85,16 @@ TEST_F(MrclamImport, IntegratesWheelSpeedsAsArcs) {
   importMrclam(options_);
   RawlogSource source(options_.log);
   std::vector<Pose2> poses;
-  while (auto frame = source.next()) poses.push_back(frame->odometry->T_odom_robot);
+  Eigen::Matrix3d covariance;  // of the second frame
+  while (auto frame = source.next()) {
+    poses.push_back(frame->odometry->T_odom_robot);
+    if (poses.size() == 2) covariance = frame->odometry->increment_covariance.value();
+  }
   ASSERT_EQ(poses.size(), 4u);
+  ArcSum half{options_.odometry};
+  half.add(0.2, 0.0, 0.2);
+  half.add(0.2, 1.0, 0.2);
+  EXPECT_TRUE(covariance.isApprox(half.covariance(), 1e-9)) << covariance;
   // 0.2 s straight, 0.2 s on a circle of 0.2 m; then 0.2 s more of it and rest.
   const Pose2 first = poses[0].inverse() * poses[1];
   EXPECT_NEAR(first.x, 0.04 + 0.2 * std::sin(0.2), 1e-9);

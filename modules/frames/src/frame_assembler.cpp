@@ -11,7 +11,8 @@
 
 #include <algorithm>
 
-#include "action_motion.hpp"
+#include "colonnade/frames/action_motion.hpp"
+#include "colonnade/frames/range_bearing_observation.hpp"
 #include "stamps.hpp"
 
 namespace colonnade {
@@ -26,17 +27,6 @@ using mrpt::obs::CObservationOdometry;
 Pose2 toPose2(const mrpt::poses::CPose2D& pose) { return {pose.x(), pose.y(), pose.phi()}; }
 
 bool isFinite(const Pose2& pose) { return pose.vector().allFinite(); }
-
-RangeBearingScan toScan(const CObservationBearingRange& observation) {
-  RangeBearingScan scan;
-  scan.T_robot_sensor = toIsometry(observation.sensorLocationOnRobot);
-  scan.range_sigma_m = static_cast<double>(observation.sensor_std_range);
-  scan.yaw_sigma = static_cast<double>(observation.sensor_std_yaw);
-  for (const auto& reading : observation.sensedData)
-    scan.readings.push_back({reading.landmarkID, static_cast<double>(reading.range),
-                             static_cast<double>(reading.yaw), static_cast<double>(reading.pitch)});
-  return scan;
-}
 
 }  // namespace
 
@@ -217,7 +207,7 @@ std::optional<Frame> FrameAssembler::build(Candidate& candidate) {
   if (!builder_.build(image, depth, frame, &problem)) return refuse(problem);
   if (!problem.empty()) skip(problem);
 
-  if (candidate.landmarks) frame.range_bearing = toScan(*candidate.landmarks);
+  if (candidate.landmarks) frame.range_bearing = rangeBearingOf(*candidate.landmarks);
   if (candidate.from_sensory_frame) {
     if (motion_seen_)
       frame.odometry = OdometryReading{T_odom_robot_, motion_delivered_.covariance()};

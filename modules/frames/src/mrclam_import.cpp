@@ -59,8 +59,11 @@ RangeBearingScan scanOf(const std::vector<BarcodeReading>& readings, std::size_t
       ++result.robot_readings[subject->second];
     else if (reading.range_m <= 0.0)
       ++result.bad_ranges;
-    else
+    else {
       scan.readings.push_back({subject->second, reading.range_m, reading.bearing, 0.0});
+      for (MrclamLandmark& landmark : result.landmarks)
+        if (landmark.subject == subject->second) ++landmark.readings;
+    }
   }
   result.readings += scan.readings.size();
   return scan;
@@ -111,6 +114,7 @@ MrclamImportResult importMrclam(const MrclamImportOptions& options) {
   result.landmarks = readMrclamLandmarks(options.folder);
   RawlogWriterOptions format;
   format.format = RawlogWriterOptions::Format::kActionSensoryFramePairs;
+  format.keep_motion_covariance = true;
   RawlogWriter writer(options.log, format);
   double former_s = readings.front().stamp_s;
   for (std::size_t begin = 0, end = 0; begin < readings.size(); begin = end) {

@@ -23,12 +23,13 @@
 namespace colonnade {
 namespace {
 
-mrpt::obs::CActionCollection actionsOf(const FrameRecord& record) {
+mrpt::obs::CActionCollection actionsOf(const FrameRecord& record, bool keep_covariance) {
   const MotionRecord motion = record.motion.value_or(MotionRecord{});
   const auto& T = motion.T_previous_robot;
   mrpt::obs::CActionRobotMovement2D movement;
   movement.timestamp = stampOf(record.stamp_s);
-  movement.estimationMethod = mrpt::obs::CActionRobotMovement2D::emOdometry;
+  movement.estimationMethod = keep_covariance ? mrpt::obs::CActionRobotMovement2D::emScan2DMatching
+                                              : mrpt::obs::CActionRobotMovement2D::emOdometry;
   movement.rawOdometryIncrementReading = mrpt::poses::CPose2D(T.x, T.y, T.phi);
   auto change = std::make_shared<mrpt::poses::CPosePDFGaussian>();
   change->mean = mrpt::poses::CPose2D(T.x, T.y, T.phi);
@@ -92,7 +93,7 @@ void RawlogWriter::add(const FrameRecord& record) {
     auto archive = mrpt::serialization::archiveFrom(bytes);
     const auto observations = observationsOf(record, impl_->options);
     if (impl_->options.format == RawlogWriterOptions::Format::kActionSensoryFramePairs) {
-      archive << actionsOf(record);
+      archive << actionsOf(record, impl_->options.keep_motion_covariance);
       mrpt::obs::CSensoryFrame frame;
       for (const auto& observation : observations) frame.insert(observation);
       archive << frame;

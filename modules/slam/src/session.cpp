@@ -2,27 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "colonnade/slam/session.hpp"
 
-#include <chrono>
 #include <limits>
 
 #include "colonnade/detectors/edge_view_of.hpp"
+#include "stopwatch.hpp"
 
 namespace colonnade {
 namespace {
-
-class Stopwatch {
- public:
-  /// Milliseconds since the last call.
-  double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    const double ms = std::chrono::duration<double, std::milli>(now - last_).count();
-    last_ = now;
-    return ms;
-  }
-
- private:
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
 
 /// Books what the update used, and counts what it did not.
 void book(const Frame& frame, const StepReport& report, const std::vector<bool>& used,

@@ -4,7 +4,8 @@
 
 namespace colonnade {
 
-/// The value a chi-square variable of `degrees_of_freedom` stays below with this probability.
+/// The value a chi-square variable of `degrees_of_freedom` stays below with this probability;
+/// infinite for probability 1: no gate.
 double chiSquareQuantile(double probability, int degrees_of_freedom);
 
 }  // namespace colonnade

@@ -45,6 +45,8 @@ struct RangeBearing {
   double range_m = 0.0;
   double yaw = 0.0;
   double pitch = 0.0;
+  /// Of (range, yaw), where the log states one for this very reading.
+  std::optional<Eigen::Matrix2d> covariance = std::nullopt;
 };
 
 struct RangeBearingScan {

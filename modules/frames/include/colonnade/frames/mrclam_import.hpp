@@ -14,14 +14,15 @@
 
 namespace colonnade {
 
-/// How sure integrated wheel speeds are: a random walk, variances grow with way and turn. The
-/// default is what the wheels of the five robots of data set 7 show against motion capture over 2
-/// to 10 s (0.06 to 0.09 m, 6.5 to 8 degrees); much of it is the delay between command and motion.
+/// How sure integrated wheel speeds are: a random walk, variances grow with way and turn. Wider
+/// than what the wheels of data set 7 show against motion capture over a few seconds (0.09 m along,
+/// 8 degrees after 1 rad), because part of it lasts: all five robots turn 0.05 to 0.25 degrees a
+/// second less and drive 7 % less than their wheels say.
 struct WheelSpeedNoise {
-  double along_m = 0.06;          ///< m after 1 m
-  double across_m = 0.01;         ///< m after 1 m
-  double heading = radians(1.5);  ///< rad after 1 m
-  double turn = radians(7.5);     ///< rad after 1 rad
+  double along_m = 0.10;          ///< m after 1 m
+  double across_m = 0.03;         ///< m after 1 m
+  double heading = radians(5.0);  ///< rad after 1 m
+  double turn = radians(10.0);    ///< rad after 1 rad
   double floor_m = 0.001;         ///< of every increment, even at rest
   double floor_angle = radians(0.1);
 };
@@ -49,9 +50,9 @@ struct MrclamImportOptions {
   std::filesystem::path folder;
   int robot = 1;  ///< 1 to 5
   std::filesystem::path log;
-  /// Written into every observation. The camera's distances are good to about 0.05 m a metre and
-  /// its bearings to 0.5 to 1.5 degrees (data set 7, all robots, against motion capture); errors of
-  /// neighbouring readings resemble each other, so single readings count for less.
+  /// Written into every observation. Against motion capture ranges err by about 0.05 m a metre and
+  /// bearings by 0.5 to 1.5 degrees (data set 7, all robots); errors of neighbouring readings
+  /// resemble each other, so that a single reading counts for less.
   double range_sigma_m = 0.25;
   double bearing_sigma = radians(1.5);
   WheelSpeedNoise odometry;
@@ -63,6 +64,7 @@ struct MrclamLandmark {
   int subject = 0;
   Eigen::Vector2d p_world = Eigen::Vector2d::Zero();
   Eigen::Vector2d sigma = Eigen::Vector2d::Zero();
+  std::size_t readings = 0;  ///< of it in the log
 };
 
 struct MrclamImportResult {

@@ -50,6 +50,9 @@ struct RawlogWriterOptions {
   int gz_level = 1;      ///< 0: plain file, 1 fast ... 9 small
   int jpeg_quality = 0;  ///< 0: `image` is stored raw, without loss; else 1 to 100
   std::string camera_label = "RGBD";
+  /// Of an action it calls odometry MRPT stores the reading alone and computes a covariance of its
+  /// own on loading. true: motions are stored as estimates (emScan2DMatching), which keep theirs.
+  bool keep_motion_covariance = false;
 };
 
 /// Writes an MRPT rawlog, whole or not at all: into a temporary neighbour that `finish()` renames.

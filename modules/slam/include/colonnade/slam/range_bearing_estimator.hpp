@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "colonnade/filter/ekf_slam.hpp"
+#include "colonnade/frames/frame.hpp"
+#include "colonnade/motion/motion.hpp"
+#include "colonnade/slam/event.hpp"
+#include "colonnade/slam/range_bearing_options.hpp"
+
+namespace colonnade {
+
+/// What became of one frame of readings, as the likeliest history has it.
+struct RangeBearingReport {
+  std::vector<std::optional<LandmarkId>> landmarks;  ///< one for each reading of the scan
+  std::vector<bool> founded;                         ///< the reading founded its landmark
+  std::vector<Event> events;
+};
+
+/// EKF-SLAM on readings of point landmarks (range and bearing, or bearing alone): the same filter
+/// as with cameras, with known, hidden or partly known identities.
+///
+/// Readings whose identity the landmark map knows correct the filter together, behind a gate; an
+/// identity seen for the first time founds a landmark after the correction. Readings without
+/// identity are associated frame by frame (nn, jcbb), or `hypotheses` histories of associations are
+/// carried on side by side, each with its own filter, weighed by the likelihood of their readings
+/// (Reid 1979; the number of histories is bounded, those that differ only in decisions long past
+/// are one). What a history decided may change later: decisions() tells the likeliest one's.
+///
+/// Bearings alone: the first bearing to an identity waits, with a clone of its pose in the state,
+/// until another one gives enough parallax. They need identities.
+class RangeBearingEstimator {
+ public:
+  /// Throws Error (kUsage) for options that contradict each other. Filter.gate_probability and
+  /// Filter.error_correlation_s give way to those of RangeBearingOptions.
+  RangeBearingEstimator(const RangeBearingOptions& options, const FilterOptions& filter_options);
+  ~RangeBearingEstimator();
+  RangeBearingEstimator(RangeBearingEstimator&&) noexcept;
+  RangeBearingEstimator& operator=(RangeBearingEstimator&&) noexcept;
+
+  /// One frame: motion since the former one, then its readings. Throws Error (kUsage) for a bearing
+  /// without identity in bearing_only.
+  RangeBearingReport step(double stamp_s, const MotionIncrement& motion,
+                          const RangeBearingScan& scan);
+
+  const EkfSlam& filter() const;
+  LandmarkMap map() const { return filter().landmarkMap(); }
+  /// The identity in the log, where it is believed and known.
+  std::optional<int> identityOf(LandmarkId landmark) const;
+  /// The landmark of every reading so far, in the order of the log.
+  std::vector<std::optional<LandmarkId>> decisions() const;
+  std::size_t histories() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// How far decisions agree with the identities a log tells: every identity is given the landmark
+/// most of its readings went to, each landmark to one identity, the pairs with most readings first.
+struct IdentityScore {
+  std::size_t readings = 0;    ///< whose identity the log tells
+  std::size_t associated = 0;  ///< with a landmark
+  std::size_t right = 0;       ///< of those, with the landmark of their identity
+  std::size_t identities = 0;
+  double rightShare() const {
+    return associated == 0 ? 0.0 : static_cast<double>(right) / static_cast<double>(associated);
+  }
+};
+IdentityScore scoreIdentities(const std::vector<std::optional<LandmarkId>>& decisions,
+                              const std::vector<int>& identities);
+
+}  // namespace colonnade

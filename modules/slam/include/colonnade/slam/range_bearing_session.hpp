@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "colonnade/frames/frame_source.hpp"
+#include "colonnade/motion/motion_estimator.hpp"
+#include "colonnade/slam/range_bearing_estimator.hpp"
+#include "colonnade/slam/session.hpp"
+
+namespace colonnade {
+
+/// The main loop for logs without images: frames of landmark readings in, an estimate out; shaped
+/// like Session.
+class RangeBearingSession {
+ public:
+  /// Throws Error (kUsage) for options that contradict each other.
+  RangeBearingSession(const RangeBearingOptions& options, const FilterOptions& filter,
+                      const MotionOptions& motion);
+
+  /// Called after each frame; false stops the run.
+  using Observer = std::function<bool(const Frame&, const StepReport&, const RangeBearingSession&)>;
+  void run(FrameSource& source, const Observer& observer);
+
+  const EkfSlam& filter() const { return estimator_.filter(); }
+  /// Where the log's identities are believed and every landmark has one, they are the ids of the
+  /// map; otherwise those of the filter.
+  LandmarkMap map() const;
+  std::size_t axisCount() const { return 0; }
+  /// The decisions against the identities of the log, also where those are hidden from the filter.
+  IdentityScore identityScore() const;
+
+ private:
+  RangeBearingEstimator estimator_;
+  MotionEstimator motion_;
+  std::vector<int> identities_;  ///< of all readings so far
+};
+
+}  // namespace colonnade

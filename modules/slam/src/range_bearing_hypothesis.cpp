@@ -1,0 +1,159 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "range_bearing_hypothesis.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace colonnade {
+namespace {
+
+constexpr int kFewestStrikes = 5;
+/// A robot that every landmark disagrees with is somewhere else: its pose gets this uncertain.
+constexpr int kLostAfterRefusals = 6;
+constexpr double kLostSigma_m = 0.5;
+constexpr double kLostSigma = radians(30.0);
+
+FilterOptions withGate(FilterOptions filter, const RangeBearingOptions& options) {
+  filter.gate_probability = std::max(options.gate_probability, options.known_gate_probability);
+  return filter;
+}
+
+Event event(const ReadingFrame& frame, const char* what, LandmarkId landmark, std::string reason) {
+  return {frame.stamp_s, frame.index, what, landmark, std::move(reason)};
+}
+
+std::string described(int identity) {
+  return identity < 0 ? "identity not known" : "identity " + std::to_string(identity);
+}
+
+}  // namespace
+
+RangeBearingHypothesis::RangeBearingHypothesis(const RangeBearingOptions& options,
+                                               const FilterOptions& filter_options)
+    : filter(withGate(filter_options, options)), options_(&options) {}
+
+std::optional<LandmarkId> RangeBearingHypothesis::landmarkOf(int identity) const {
+  const auto found = landmark_of_identity_.find(identity);
+  if (identity < 0 || found == landmark_of_identity_.end()) return std::nullopt;
+  return found->second;
+}
+
+std::optional<int> RangeBearingHypothesis::identityOf(LandmarkId landmark) const {
+  for (const auto& [identity, bearer] : landmark_of_identity_)
+    if (bearer == landmark) return identity;
+  return std::nullopt;
+}
+
+std::vector<LandmarkId> RangeBearingHypothesis::allowed(int identity) const {
+  const auto bearer = landmarkOf(identity);
+  std::vector<LandmarkId> landmarks;
+  for (const Block& block : filter.state().blocks) {
+    if (!block.isLandmark() || std::find(used.begin(), used.end(), block.id) != used.end())
+      continue;
+    if (bearer ? block.id == *bearer : identity < 0 || !identityOf(block.id))
+      landmarks.push_back(block.id);
+  }
+  return landmarks;
+}
+
+std::optional<LandmarkId> RangeBearingHypothesis::found(const LandmarkReading& reading,
+                                                        const ReadingFrame& frame,
+                                                        std::vector<Event>& events) {
+  const auto id = filter.addLandmark(reading.measurement);
+  if (!id) return std::nullopt;
+  observe(*id, reading, frame);
+  events.push_back(event(frame, "birth", *id, described(reading.identity)));
+  return id;
+}
+
+void RangeBearingHypothesis::observe(LandmarkId landmark, const LandmarkReading& reading,
+                                     const ReadingFrame& frame) {
+  Evidence& evidence = filter.evidence(landmark);
+  if (evidence.observations == 0) evidence.first_stamp_s = frame.stamp_s;
+  evidence.last_stamp_s = frame.stamp_s;
+  ++evidence.observations;
+  used.push_back(landmark);
+  strikes_.erase(landmark);
+  refused_in_a_row_.clear();
+  if (reading.identity >= 0) landmark_of_identity_.emplace(reading.identity, landmark);
+}
+
+void RangeBearingHypothesis::strike(LandmarkId landmark, const ReadingFrame& frame,
+                                    std::vector<Event>& events) {
+  refused_in_a_row_.push_back(landmark);
+  const bool several = std::any_of(refused_in_a_row_.begin(), refused_in_a_row_.end(),
+                                   [&](const LandmarkId id) { return id != landmark; });
+  if (several && refused_in_a_row_.size() >= kLostAfterRefusals) {
+    refused_in_a_row_.clear();
+    filter.predict(
+        {}, Eigen::Vector3d(kLostSigma_m, kLostSigma_m, kLostSigma).cwiseAbs2().asDiagonal());
+    events.push_back({frame.stamp_s, frame.index, "lost", std::nullopt,
+                      "all readings in a row refused: the pose is in doubt"});
+    return;
+  }
+  const int strikes = ++strikes_[landmark];
+  if (strikes < kFewestStrikes || strikes <= filter.evidence(landmark).observations) return;
+  events.push_back(event(frame, "purged", landmark, "refused more often than seen"));
+  forget(landmark);
+}
+
+void RangeBearingHypothesis::forget(LandmarkId landmark) {
+  filter.remove(landmark);
+  strikes_.erase(landmark);
+  std::erase_if(landmark_of_identity_, [&](const auto& e) { return e.second == landmark; });
+}
+
+void RangeBearingHypothesis::release(LandmarkId clone) {
+  const bool needed = std::any_of(first_bearings_.begin(), first_bearings_.end(),
+                                  [&](const auto& e) { return e.second.clone == clone; });
+  if (needed) return;
+  filter.remove(clone);
+  if (clone_of_frame_ == clone) clone_of_frame_.reset();
+}
+
+std::optional<LandmarkId> RangeBearingHypothesis::triangulate(const LandmarkReading& reading,
+                                                              const ReadingFrame& frame,
+                                                              std::vector<Event>& events) {
+  const auto first = first_bearings_.find(reading.identity);
+  if (first == first_bearings_.end()) {
+    if (!clone_of_frame_) clone_of_frame_ = filter.addPoseClone();
+    first_bearings_[reading.identity] = {*clone_of_frame_, reading.measurement};
+    return std::nullopt;
+  }
+  const FirstBearing view = first->second;
+  const auto seen = filter.parallax(view.clone, view.measurement, reading.measurement);
+  if (!seen || seen->baseline_m < options_->min_baseline_m ||
+      std::abs(seen->angle) < options_->min_parallax)
+    return std::nullopt;
+  std::optional<LandmarkId> id;
+  // Rays that do not meet in front of both views were not of one landmark: start again.
+  if (seen->inverse_depth > 2.0 * seen->inverse_depth_sigma)
+    id = filter.addLandmark(view.clone, view.measurement, reading.measurement);
+  first_bearings_.erase(first);
+  release(view.clone);
+  if (id) {
+    observe(*id, reading, frame);
+    events.push_back(event(frame, "birth", *id, described(reading.identity) + " by parallax"));
+  }
+  return id;
+}
+
+void RangeBearingHypothesis::endFrame(const ReadingFrame& frame, std::vector<Event>& events) {
+  used.clear();
+  clone_of_frame_.reset();
+  for (const LandmarkId id : filter.settleInverseDepths())
+    events.push_back(event(frame, "settled", id, "inverse depth to x, y"));
+  std::vector<LandmarkId> stale;
+  for (const Block& block : filter.state().blocks)
+    if (block.isLandmark() && block.evidence.observations < options_->probation_sightings &&
+        frame.stamp_s - block.evidence.last_stamp_s > options_->probation_s &&
+        !identityOf(block.id))
+      stale.push_back(block.id);
+  for (const LandmarkId id : stale) {
+    events.push_back(event(frame, "purged", id, "too few sightings"));
+    forget(id);
+  }
+}
+
+}  // namespace colonnade

@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "colonnade/filter/ekf_slam.hpp"
+#include "colonnade/slam/event.hpp"
+#include "colonnade/slam/range_bearing_options.hpp"
+#include "range_bearing_history.hpp"
+
+namespace colonnade {
+
+/// A reading as the filter takes it.
+struct LandmarkReading {
+  Measurement measurement;
+  int identity = -1;  ///< below 0: not known
+};
+
+/// A frame as seen by the range-bearing estimator.
+struct ReadingFrame {
+  double stamp_s = 0.0;
+  std::size_t index = 0;
+  double noise_scale = 1.0;
+  std::vector<LandmarkReading> readings;
+};
+
+/// One way to explain all readings so far: an estimate, and which landmark bears which identity.
+class RangeBearingHypothesis {
+ public:
+  RangeBearingHypothesis(const RangeBearingOptions& options, const FilterOptions& filter_options);
+
+  EkfSlam filter;
+  double log_weight = 0.0;
+  ReadingHistories::Leaf leaf = ReadingHistories::kRoot;
+  std::vector<LandmarkId> used;  ///< landmarks seen in the present frame
+
+  std::optional<LandmarkId> landmarkOf(int identity) const;
+  std::optional<int> identityOf(LandmarkId landmark) const;
+  /// The landmarks a reading may be of: the bearer of its identity, or, for an identity nobody
+  /// bears yet, those without one; for a reading without identity all. Not those already used.
+  std::vector<LandmarkId> allowed(int identity) const;
+
+  /// A new landmark at the reading.
+  std::optional<LandmarkId> found(const LandmarkReading& reading, const ReadingFrame& frame,
+                                  std::vector<Event>& events);
+  /// Books a reading the filter used.
+  void observe(LandmarkId landmark, const LandmarkReading& reading, const ReadingFrame& frame);
+  /// Books a reading the gate kept from the landmark of its identity. A landmark refused more often
+  /// in a row than it was ever seen stands at a wrong place: it is forgotten. When readings of
+  /// several landmarks are refused and none is used in between, the pose becomes uncertain.
+  void strike(LandmarkId landmark, const ReadingFrame& frame, std::vector<Event>& events);
+
+  /// The first bearing to an identity waits for a second one from elsewhere. What became a
+  /// landmark, if any.
+  std::optional<LandmarkId> triangulate(const LandmarkReading& reading, const ReadingFrame& frame,
+                                        std::vector<Event>& events);
+
+  /// What ends a frame: points settle, landmarks seen too seldom go.
+  void endFrame(const ReadingFrame& frame, std::vector<Event>& events);
+
+ private:
+  struct FirstBearing {
+    LandmarkId clone{};
+    Measurement measurement;
+  };
+  void forget(LandmarkId landmark);
+  void release(LandmarkId clone);
+
+  const RangeBearingOptions* options_;
+  std::map<int, LandmarkId> landmark_of_identity_;
+  std::map<LandmarkId, int> strikes_;
+  std::vector<LandmarkId> refused_in_a_row_;
+  std::map<int, FirstBearing> first_bearings_;
+  std::optional<LandmarkId> clone_of_frame_;
+};
+
+}  // namespace colonnade
