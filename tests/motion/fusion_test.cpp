@@ -73,6 +73,13 @@ TEST_F(BothOdometries, ABlindCameraLeavesTheWheelsAsTheyAre) {
   EXPECT_LT((motion.T_previous_robot.vector() - read.vector()).norm(), 1e-12);
 }
 
+TEST_F(BothOdometries, LongStepsAreLeftToTheWheels) {
+  const Pose2 read{0.5, 0.01, 0.0};
+  const auto motion = drive({0.48, 0.0, 0.0}, read, coarse_);
+  EXPECT_EQ(motion.source, MotionSource::kOdometry);
+  EXPECT_LT((motion.T_previous_robot.vector() - read.vector()).norm(), 1e-12);
+}
+
 TEST_F(BothOdometries, AConflictKeepsTheWheelsAndCoversTheCamera) {
   // The whole view moves by what no wheel feels: a lorry passes, or the wheels slip.
   const Pose2 read{0.0, 0.0, 0.0};

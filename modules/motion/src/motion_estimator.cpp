@@ -79,10 +79,18 @@ struct MotionEstimator::Impl {
     return reduceToPlane(motion, T_robot_camera_previous, mounting);
   }
 
+  /// Direct alignment is local: after a longer step it may rest in a wrong minimum and be sure of
+  /// it.
+  bool isWithinReach(const MotionIncrement& wheels) const {
+    return wheels.T_previous_robot.translation().norm() <= options.visual_reach_m &&
+           std::abs(wheels.T_previous_robot.phi) <= options.visual_reach_angle;
+  }
+
   MotionIncrement measure(const Frame& frame, const MountingAtFrame& mounting, double dt_s) {
     const auto wheels = byWheels(frame);
     const auto camera = byCamera(frame, mounting);
-    if (wheels && camera && camera->source != MotionSource::kConstantVelocity)
+    if (wheels && camera && camera->source != MotionSource::kConstantVelocity &&
+        isWithinReach(*wheels))
       return fuse(*wheels, *camera);
     if (wheels) return *wheels;
     return camera ? *camera : coast(dt_s);

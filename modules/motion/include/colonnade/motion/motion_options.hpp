@@ -38,6 +38,9 @@ struct MotionOptions {
   double surface_correlation = 35.0;
   double model_error = 0.03;  ///< sigma per motion: shutter, synchronisation, calibration
   double weak_direction_ratio = 4.0;
+  /// Longer steps from frame to frame are left to the wheels, where there are any.
+  double visual_reach_m = 0.35;
+  double visual_reach_angle = radians(15.0);
   double max_speed_m_s = 2.0;
   double max_turn_rate = radians(150.0);
 
@@ -73,6 +76,9 @@ struct MotionOptions {
     v.number("model_error", model_error, {0, 1}, "sigma of visual odometry per motion");
     v.number("weak_direction_ratio", weak_direction_ratio, {0, 1e4},
              "surface directions count above this many times what noisy normals feign");
+    v.number("visual_reach_m", visual_reach_m, {0, 10},
+             "longer steps between frames are left to the wheels, where there are any");
+    v.angle("visual_reach_deg", visual_reach_angle, {0, 180}, "the same for turns");
     v.number("max_speed_m_s", max_speed_m_s, {0.01, 100}, "faster is a failed alignment");
     v.angle("max_turn_rate_deg", max_turn_rate, {1, 3600}, "per second; faster is a failure");
     v.number("coasting_speed_sigma_m_s", coasting_speed_sigma_m_s, {0.001, 100},
