@@ -50,7 +50,7 @@ TEST_F(Faults, UsageErrorsAreExitTwo) {
 }
 
 TEST_F(Faults, ALogWithoutImagesIsRefusedWithAWordOnWhatItHolds) {
-  COLONNADE_REQUIRE_RECORDING(log, "mrpt/kf-slam_demo.rawlog");
+  COLONNADE_REQUIRE_RECORDING(log, "mrpt/2006-01ENE-21-SENA_Telecom Faculty_one_loop_only.rawlog");
   expectRefused("run '" + log.string() + "' -o r", 1, "no camera images or depth");
   EXPECT_FALSE(std::filesystem::exists(folder_ / "r"));
 }

@@ -12,6 +12,9 @@ namespace {
 
 constexpr double kUsual = 7.815;     ///< chi squared, 3 degrees of freedom, 5 %
 constexpr double kConflict = 16.27;  ///< 0.1 %
+/// A conflict says little about which of the two is wrong. To cover what the camera says would let
+/// one bad alignment open all gates.
+constexpr double kDoubtInWheels = 4.0;
 
 }  // namespace
 
@@ -25,7 +28,7 @@ MotionIncrement fuse(const MotionIncrement& wheels, const MotionIncrement& camer
 
   MotionIncrement fused = wheels;
   if (!(surprise <= kConflict)) {
-    fused.covariance += difference * difference.transpose();
+    fused.covariance *= kDoubtInWheels;
     return fused;
   }
   const Eigen::Matrix3d K = llt.solve(wheels.covariance).transpose();
