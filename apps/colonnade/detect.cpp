@@ -84,13 +84,16 @@ struct Tally {
   }
 };
 
-std::vector<ImageLine> acceptedLines(const Detections& detections) {
+std::vector<ImageLine> acceptedLines(const Frame& frame, const Detections& detections) {
   std::vector<ImageLine> lines;
-  for (const Detection& d : detections)
-    if (d.accepted())
-      lines.push_back(
-          {d.kind(), d.a_px, d.b_px,
-           d.measurement.hasRange() ? std::optional(d.measurement.z(1)) : std::nullopt});
+  for (const Detection& d : detections) {
+    if (!d.accepted()) continue;
+    const bool ranged = d.measurement.hasRange();
+    const auto inside = clipped(
+        {d.kind(), d.a_px, d.b_px, ranged ? std::optional(d.measurement.z(1)) : std::nullopt},
+        frame.camera.width_px, frame.camera.height_px);
+    if (inside) lines.push_back(*inside);
+  }
   return lines;
 }
 
@@ -114,6 +117,7 @@ ExitCode detect(const DetectArguments& arguments) {
 
   const fs::path folder = makeResultsFolder(arguments.output, arguments.input);
   DetectionScore score;
+  std::size_t frames_in_table = 0;
   Tally tally;
   Progress progress;
   const InterruptGuard interrupt;
@@ -133,8 +137,13 @@ ExitCode detect(const DetectArguments& arguments) {
       tally.edges_ms.push_back(Milliseconds(middle - start).count());
       tally.detectors_ms.push_back(Milliseconds(end - middle).count());
       tally.add(detections);
-      if (const auto there = truth.find(microseconds(frame->stamp_s)); there != truth.end())
-        score.add(acceptedLines(detections), there->second);
+      if (arguments.score) {
+        // A frame that shows nothing true has no row: whatever is detected in it is false.
+        const auto there = truth.find(microseconds(frame->stamp_s));
+        frames_in_table += there != truth.end() ? 1 : 0;
+        score.add(acceptedLines(*frame, detections),
+                  there != truth.end() ? there->second : std::vector<TrueImageLine>());
+      }
       std::fputs(detectionCsvRows(*frame, detections).c_str(), table);
       if (arguments.picture_every > 0 && frame->index % arguments.picture_every == 0)
         cv::imwrite((folder / pictureName(frame->index)).string(),
@@ -144,6 +153,9 @@ ExitCode detect(const DetectArguments& arguments) {
     if (std::fclose(table) != 0) throw Error(path.string() + ": cannot be written to the end");
   });
   progress.finish();
+  if (arguments.score && frames_in_table == 0)
+    throw Error(arguments.input.string() + ": no frame of it stands in " +
+                logStem(arguments.input).string() + "_columns.csv; is that of another log?");
   auto json = tally.json();
   if (arguments.score) json["score"] = toJson(score);
   writeFileAtomically(folder / "detect.json", json.dump(2) + "\n");
@@ -170,6 +182,7 @@ Action addDetect(CLI::App& verb) {
   verb.add_option("--set", arguments->assignments, "Section.key=value, wins over the file")
       ->allow_extra_args(false);
   verb.add_option("--picture-every", arguments->picture_every, "frames; 0: no pictures")
+      ->check(notNegative())
       ->capture_default_str();
   verb.add_flag("--score", arguments->score,
                 "against STEM_columns.csv, which simulate writes beside its log");

@@ -41,7 +41,8 @@ bool same(const Trajectory& a, const Trajectory& b) {
   });
 }
 
-Evaluation evaluateAll(const EvaluationFiles& files, const Arguments& arguments) {
+/// What cannot be scored goes to files.not_scored with the reason.
+Evaluation evaluateAll(EvaluationFiles& files, const Arguments& arguments) {
   EvaluationOptions options;
   options.alignment = alignmentOfName(arguments.alignment);
   LandmarkScoreOptions landmark_options = arguments.landmarks;
@@ -61,13 +62,28 @@ Evaluation evaluateAll(const EvaluationFiles& files, const Arguments& arguments)
   // The map goes with the trajectory after the last correction.
   const Pose2 T_truth_estimate =
       planarPart(result.final_trajectory.value_or(result.trajectory).T_truth_estimate);
-  if (!files.landmarks.empty())
-    result.landmarks =
-        scoreLandmarks(readLandmarksCsv(files.landmarks), readLandmarksCsv(files.truth_landmarks),
-                       T_truth_estimate, landmark_options, result.trajectory.anchor);
-  if (!files.floor.empty())
-    result.floor =
-        scoreFloor(readFloorMap(files.floor), readFloorMap(files.truth_floor), T_truth_estimate);
+  // A map that cannot be compared must not cost the score of the trajectory.
+  const auto unlessRefused = [&](const char* what, const auto& score) {
+    try {
+      score();
+    } catch (const Error& refusal) {
+      files.not_scored.push_back(std::string(what) + " (" + refusal.what() + ")");
+    }
+  };
+  if (!files.landmarks.empty()) {
+    const auto estimated = readLandmarksCsv(files.landmarks);
+    const auto true_ones = readLandmarksCsv(files.truth_landmarks);
+    unlessRefused("landmarks", [&] {
+      result.landmarks = scoreLandmarks(estimated, true_ones, T_truth_estimate, landmark_options,
+                                        result.trajectory.anchor);
+    });
+  }
+  if (!files.floor.empty()) {
+    const auto estimated = readFloorMap(files.floor);
+    const auto true_floor = readFloorMap(files.truth_floor);
+    unlessRefused("free floor",
+                  [&] { result.floor = scoreFloor(estimated, true_floor, T_truth_estimate); });
+  }
   return result;
 }
 
@@ -98,12 +114,16 @@ void printTable(const Evaluation& evaluation, const EvaluationFiles& files) {
 }
 
 ExitCode evaluate(const Arguments& arguments) {
-  const EvaluationFiles files = complete(arguments.files);
+  EvaluationFiles files = complete(arguments.files);
   const Evaluation evaluation = evaluateAll(files, arguments);
   if (arguments.json)
     printJson(evaluation, files);
   else
     printTable(evaluation, files);
+  constexpr double kMostOfIt = 0.9;
+  if (const double share = evaluation.trajectory.span.estimate_in_truth; share < kMostOfIt)
+    std::fprintf(stderr, "%s: covers only %s %% of the estimate's time; is it of the same log?\n",
+                 files.ground_truth.c_str(), formatFixed(100.0 * share, 0).c_str());
   if (!files.not_scored.empty())
     std::fprintf(stderr, "not scored: %s\n", joined(files.not_scored, ", ").c_str());
   return ExitCode::kDone;

@@ -14,6 +14,7 @@
 #include "colonnade/base/text.hpp"
 #include "colonnade/simulation/simulator.hpp"
 #include "colonnade/simulation/world_file.hpp"
+#include "interrupt.hpp"
 #include "progress.hpp"
 #include "verbs.hpp"
 
@@ -68,7 +69,11 @@ ExitCode simulateVerb(const SimulateArguments& arguments) {
   }
   SimulationOptions options = arguments.options;
   Progress progress;
+  const InterruptGuard interrupt;
   options.progress = [&](std::size_t done, std::size_t total) {
+    if (interrupt.requested())
+      throw Error("interrupted after " + std::to_string(done) + " frames; nothing is written",
+                  ExitCode::kInterrupted);
     progress.show(static_cast<double>(done) / static_cast<double>(total), done, "");
   };
   const auto summary = simulate(loaded.world, arguments.log, options);
@@ -90,7 +95,9 @@ Action addSimulate(CLI::App& verb) {
   verb.add_option("WORLD", arguments->world, "world file, see rawlogs/worlds, or random:SEED")
       ->required();
   verb.add_option("-o,--output", arguments->log, "rawlog to write")->required();
-  verb.add_option("--seed", arguments->options.seed, "of all noise")->capture_default_str();
+  verb.add_option("--seed", arguments->options.seed, "of all noise")
+      ->check(notNegative())
+      ->capture_default_str();
   const auto shorthand = [&](const char* name, const char* key, const char* meaning) {
     verb.add_option_function<std::string>(
         name,

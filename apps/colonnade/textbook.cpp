@@ -198,6 +198,7 @@ Action addTextbook(CLI::App& verb) {
       ->check(CLI::Range(1, 20))
       ->capture_default_str();
   verb.add_option("--seed", arguments->seed, "of the first drive; others follow")
+      ->check(notNegative())
       ->capture_default_str();
   verb.add_option("--runs", arguments->runs, "drives the RMSE is taken over")
       ->check(CLI::Range(1, 1000))

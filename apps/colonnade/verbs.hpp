@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <string>
 
 #include "colonnade/base/error.hpp"
 
@@ -12,6 +13,14 @@ namespace colonnade {
 /// One verb of the program: it adds its options to a subcommand and returns what to do when the
 /// subcommand is chosen. Errors leave as Error; main prints them as one line.
 using Action = std::function<ExitCode()>;
+
+/// For counts and seeds: CLI11 would read -1 as a huge unsigned number.
+inline CLI::Validator notNegative() {
+  return {[](std::string& text) {
+            return text.starts_with('-') ? text + " is negative" : std::string();
+          },
+          "UINT"};
+}
 
 Action addRun(CLI::App& verb);
 Action addDetect(CLI::App& verb);

@@ -67,5 +67,19 @@ TEST_F(PillarScore, TheOrderOfEndsDoesNotMatter) {
   EXPECT_DOUBLE_EQ(0.5, kind.offsetRms());
 }
 
+TEST(ClippedLine, KeepsWhatIsInThePicture) {
+  const auto line = clipped(upright(100.0, 147.0, 402.0, 2.0), 320, 240);
+  ASSERT_TRUE(line);
+  EXPECT_DOUBLE_EQ(147.0, line->a_px.y());
+  EXPECT_DOUBLE_EQ(239.0, line->b_px.y());
+  EXPECT_DOUBLE_EQ(100.0, line->b_px.x());
+  EXPECT_EQ(2.0, line->distance_m);
+  EXPECT_FALSE(clipped(upright(400.0, 0.0, 200.0), 320, 240));
+  EXPECT_FALSE(clipped(upright(100.0, 250.0, 300.0), 320, 240));
+  ImageLine slanted = upright(-10.0, 0.0, 100.0);
+  slanted.b_px.x() = 10.0;
+  EXPECT_NEAR(50.0, clipped(slanted, 320, 240)->a_px.y(), 1e-12);
+}
+
 }  // namespace
 }  // namespace colonnade

@@ -59,6 +59,7 @@ class DriveLog {
   bool ready() const { return fs::exists(drive_.log()) && contentOf(stamp_) == drive_.stamp; }
   JobResult make(double timeout_s) const {
     fs::remove(stamp_);
+    removeUnfinished();
     const auto result = process("simulate", drive_.simulate_arguments, said(), {}, timeout_s);
     if (result.ok()) writeFileAtomically(stamp_, drive_.stamp);
     return result;
@@ -71,6 +72,14 @@ class DriveLog {
   }
 
  private:
+  /// What a simulation that was killed has left: it may be large.
+  void removeUnfinished() const {
+    std::vector<fs::path> left;
+    for (const auto& entry : fs::directory_iterator(drive_.folder))
+      if (entry.path().filename().string().starts_with(".partial.")) left.push_back(entry.path());
+    for (const auto& path : left) fs::remove(path);
+  }
+
   const PlannedDrive& drive_;
   fs::path stamp_;
 };

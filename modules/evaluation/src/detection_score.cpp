@@ -57,6 +57,27 @@ double share(std::size_t part, std::size_t whole) {
 
 }  // namespace
 
+std::optional<ImageLine> clipped(const ImageLine& line, int width_px, int height_px) {
+  const Eigen::Vector2d way = line.b_px - line.a_px;
+  const Eigen::Vector2d last(width_px - 1, height_px - 1);
+  double from = 0.0, to = 1.0;
+  for (int axis = 0; axis < 2; ++axis) {
+    if (way(axis) == 0.0) {
+      if (line.a_px(axis) < 0.0 || line.a_px(axis) > last(axis)) return std::nullopt;
+      continue;
+    }
+    const double t0 = -line.a_px(axis) / way(axis);
+    const double t1 = (last(axis) - line.a_px(axis)) / way(axis);
+    from = std::max(from, std::min(t0, t1));
+    to = std::min(to, std::max(t0, t1));
+  }
+  if (!(from < to)) return std::nullopt;
+  ImageLine inside = line;
+  inside.a_px = line.a_px + from * way;
+  inside.b_px = line.a_px + to * way;
+  return inside;
+}
+
 std::int64_t microseconds(double stamp_s) { return std::llround(1e6 * stamp_s); }
 
 TrueImageLines readColumnsCsv(const std::filesystem::path& path) {
@@ -154,10 +175,14 @@ std::string toText(const DetectionScore& score) {
     const auto& kind = score.of(static_cast<LandmarkKind>(i));
     std::string line = name(static_cast<LandmarkKind>(i));
     line.resize(12, ' ');
-    line += "precision " + formatFixed(kind.precision(), 3) + " of " +
-            std::to_string(kind.detected) + ", recall " + formatFixed(kind.recall(), 3) + " of " +
-            std::to_string(kind.wanted) + ", offset " + formatFixed(kind.offsetRms(), 2) +
-            " px rms, distance " + formatFixed(kind.distanceRms(), 3) + " m rms\n";
+    const auto orDash = [](bool known, double value, int decimals) {
+      return known ? formatFixed(value, decimals) : std::string("-");
+    };
+    line += "precision " + orDash(kind.detected > 0, kind.precision(), 3) + " of " +
+            std::to_string(kind.detected) + ", recall " +
+            orDash(kind.wanted > 0, kind.recall(), 3) + " of " + std::to_string(kind.wanted) +
+            ", offset " + orDash(kind.right > 0, kind.offsetRms(), 2) + " px rms, distance " +
+            orDash(kind.distances > 0, kind.distanceRms(), 3) + " m rms\n";
     text += line;
   }
   return text;

@@ -134,13 +134,15 @@ void checkEnclosure(const World& world, const Building& building,
     if (end.gap_m < kCrackM) failAt(end);
   }
   Enclosure enclosure(building);
-  for (const auto& at : poses) {
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const RoutePose& at = poses[i];
     if (enclosure.holds(at.pose.translation())) continue;
     for (const auto& end : ends) {
       if (enclosure.reached(end.p)) failAt(end);
     }
-    fail(world.route.where, "the robot is outside of the building at " +
-                                placeText(at.pose.translation()) + "; move its route inside");
+    fail(i == 0 ? world.route.where : world.route.steps[at.step].where,
+         "the robot is outside of the building at " + placeText(at.pose.translation()) +
+             "; move its route inside");
   }
 }
 
@@ -169,8 +171,8 @@ void checkCollisions(const World& world, const Building& building,
 void checkWorld(const World& world) {
   const Building building = buildBuilding(world);
   const auto poses = driveSteps(world.route, kRateHz);
-  checkEnclosure(world, building, poses);
   checkCollisions(world, building, poses);
+  checkEnclosure(world, building, poses);
 }
 
 }  // namespace colonnade

@@ -23,6 +23,9 @@ struct ImageLine {
   std::optional<double> distance_m;
 };
 
+/// The part of a line inside a picture; nothing where it passes by (Liang and Barsky 1984).
+std::optional<ImageLine> clipped(const ImageLine& line, int width_px, int height_px);
+
 /// What really is in that picture.
 struct TrueImageLine : ImageLine {
   int landmark = -1;
