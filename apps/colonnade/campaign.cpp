@@ -174,7 +174,8 @@ ExitCode campaign(const CampaignArguments& arguments) {
       planCampaign(readCampaign(arguments.file), arguments.output, digestOfFile("/proc/self/exe"));
   if (!arguments.only.empty()) return runOnly(plan, arguments);
   if (arguments.collect) {
-    refuseForeignFolder(plan);
+    if (!fs::exists(sourceOf(plan) / "campaign.txt"))
+      throw Error(plan.folder.string() + ": no campaign has run there", ExitCode::kUsage);
     return collect(plan);
   }
   if (!arguments.slurm) return runAll(plan, arguments);

@@ -128,6 +128,8 @@ TEST_F(CampaignVerb, RunsAsATaskOfAJobArray) {
 TEST_F(CampaignVerb, RefusesWhatItCannotDo) {
   write("t.campaign", "world hall hall.world\nseeds 1\n");
   write("foreign/file", "mine");
+  EXPECT_EQ(2, campaign("t.campaign -o nowhere --collect"));
+  EXPECT_THAT(err(), HasSubstr("nowhere: no campaign has run there"));
   EXPECT_EQ(2, campaign("t.campaign -o foreign"));
   EXPECT_THAT(err(), HasSubstr("neither empty nor a campaign's folder"));
   EXPECT_EQ("mine", content("foreign/file"));
