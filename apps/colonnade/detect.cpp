@@ -18,6 +18,7 @@
 #include "colonnade/evaluation/detection_score.hpp"
 #include "colonnade/frames/image_source.hpp"
 #include "interrupt.hpp"
+#include "measured.hpp"
 #include "progress.hpp"
 #include "results_folder.hpp"
 #include "run_options.hpp"
@@ -58,19 +59,12 @@ struct Tally {
       ++(detection.accepted() ? accepted[kind] : refused[kind + ": " + detection.refusal]);
     }
   }
-  static double median(std::vector<double> values) {
-    if (values.empty()) return 0.0;
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-  }
   nlohmann::ordered_json json() const {
-    return {{"frames", frames},
-            {"accepted", accepted},
-            {"refused", refused},
-            {"timing_ms",
-             {{"edges", {{"median", median(edges_ms)}}},
-              {"detectors", {{"median", median(detectors_ms)}}}}}};
+    return {
+        {"frames", frames},
+        {"accepted", accepted},
+        {"refused", refused},
+        {"timing_ms", {{"edges", timingJson(edges_ms)}, {"detectors", timingJson(detectors_ms)}}}};
   }
   std::string text() const {
     std::string text = "frames     " + std::to_string(frames) + "\n";
@@ -79,8 +73,8 @@ struct Tally {
               std::to_string(count) + " accepted\n";
     for (const auto& [reason, count] : refused)
       text += "refused    " + std::to_string(count) + " " + reason + "\n";
-    return text + "time       " + formatFixed(median(edges_ms), 1) + " ms edges, " +
-           formatFixed(median(detectors_ms), 1) + " ms detectors (median of a frame)\n";
+    return text + "time       " + formatFixed(quantile(edges_ms, 0.5), 1) + " ms edges, " +
+           formatFixed(quantile(detectors_ms, 0.5), 1) + " ms detectors (median of a frame)\n";
   }
 };
 

@@ -2,13 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "summary.hpp"
 
-#include <sys/resource.h>
-
 #include <algorithm>
 
 #include "colonnade/base/text.hpp"
 #include "colonnade/evaluation/consistency.hpp"
 #include "colonnade/evaluation/score_json.hpp"
+#include "measured.hpp"
 
 namespace colonnade {
 namespace {
@@ -19,13 +18,7 @@ template <class Stage>
 Json statistics(const std::vector<StageTimes>& times, Stage stage) {
   std::vector<double> values;
   for (const StageTimes& t : times) values.push_back(stage(t));
-  std::sort(values.begin(), values.end());
-  const auto at = [&](double share) {
-    return values.empty()
-               ? 0.0
-               : values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
-  };
-  return {{"median", at(0.5)}, {"p95", at(0.95)}, {"max", at(1.0)}};
+  return timingJson(values);
 }
 
 /// The most frequent source of motion; the counts stand beside it.
@@ -58,12 +51,6 @@ Json nisOf(const InnovationHealth& health, LandmarkKind kind) {
   json["mean"] = health.meanNis(kind);
   json["band_95"] = {band.low, band.high};
   return json;
-}
-
-double peakResidentMegabytes() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024.0;
 }
 
 }  // namespace
