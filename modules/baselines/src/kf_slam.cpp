@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "colonnade/detectors/edge_view_of.hpp"
 #include "colonnade/edges/edge_line_backend.hpp"
 #include "colonnade/motion/motion_estimator.hpp"
 #include "range_bearing_filter.hpp"
@@ -46,7 +47,7 @@ BaselineStep KfSlam::step(const Frame& frame) {
   impl_->mounting.refine(refined);
   const MotionIncrement motion = impl_->motion.increment(refined, impl_->mounting.uncertainty());
   const Detections detections =
-      impl_->detectors.detect(refined, impl_->backend->extract(refined.gray));
+      impl_->detectors.detect(refined, impl_->backend->extract(refined.gray, edgeViewOf(refined)));
 
   RangeBearingStep step;
   step.stamp_s = refined.stamp_s;
