@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Colonnade authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -103,6 +104,10 @@ ExitCode compare(const Arguments& arguments) {
       toJson(outcomes, notes).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
   std::printf("%s\nresults    %s\n", table.c_str(), folder.c_str());
   if (runner.interrupted()) return ExitCode::kInterrupted;
+  const bool any_passed = std::any_of(
+      outcomes.begin(), outcomes.end(),
+      [](const MethodOutcome& outcome) { return outcome.failures() < outcome.runs.size(); });
+  if (!any_passed) return ExitCode::kFailed;
   return lossy ? ExitCode::kLossy : ExitCode::kDone;
 }
 

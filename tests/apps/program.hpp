@@ -13,6 +13,7 @@
 #include <string>
 
 #include "shared_data.hpp"
+#include "temporary_folder.hpp"
 
 namespace colonnade::testing {
 
@@ -39,15 +40,6 @@ inline std::string contentOf(const std::filesystem::path& path) {
 /// A folder of its own for each test, and the program run in it as a user runs it.
 class ProgramTest : public ::testing::Test {
  protected:
-  void SetUp() override {
-    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::path(::testing::TempDir()) /
-              (std::string("colonnade_") + info->test_suite_name() + "_" + info->name());
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   Outcome colonnade(const std::string& arguments) const {
     const auto out = folder_ / "stdout.txt";
     const auto err = folder_ / "stderr.txt";
@@ -63,7 +55,8 @@ class ProgramTest : public ::testing::Test {
   }
   std::filesystem::path corridor() const { return sourceFolder() / "rawlogs/corridor.rawlog"; }
 
-  std::filesystem::path folder_;
+  const TemporaryFolder temporary_;
+  const std::filesystem::path folder_ = temporary_.path();
 };
 
 }  // namespace colonnade::testing

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <stdlib.h>
 
 #include <filesystem>
 #include <fstream>
@@ -12,6 +11,7 @@
 
 #include "colonnade/base/error.hpp"
 #include "colonnade/campaign/campaign_file.hpp"
+#include "temporary_folder.hpp"
 
 namespace colonnade::testing {
 
@@ -19,9 +19,6 @@ namespace colonnade::testing {
 class CampaignFolder : public ::testing::Test {
  protected:
   void SetUp() override {
-    std::string name = std::filesystem::temp_directory_path() / "colonnade_campaign_XXXXXX";
-    ASSERT_NE(nullptr, ::mkdtemp(name.data()));
-    folder_ = name;
     write("hall.world", R"(room hall -1 -1  4 -1  4 1  -1 1  hallway=0
 pilaster wall=hall.1 at_m=2.6
 camera width_px=160 height_px=120 rate_hz=5
@@ -29,7 +26,6 @@ start 0 0 heading_deg=0
 drive 1.6 0 speed_m_per_s=0.8
 )");
   }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
 
   void write(const std::filesystem::path& name, const std::string& text) const {
     std::filesystem::create_directories((folder_ / name).parent_path());
@@ -56,7 +52,8 @@ drive 1.6 0 speed_m_per_s=0.8
     return "no complaint";
   }
 
-  std::filesystem::path folder_;
+  const TemporaryFolder temporary_;
+  const std::filesystem::path folder_ = temporary_.path();
 };
 
 }  // namespace colonnade::testing

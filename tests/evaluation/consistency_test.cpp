@@ -11,6 +11,7 @@
 #include "colonnade/base/angle.hpp"
 #include "colonnade/base/error.hpp"
 #include "colonnade/evaluation/trajectory_score.hpp"
+#include "temporary_folder.hpp"
 #include "test_paths.hpp"
 
 namespace colonnade {
@@ -162,7 +163,8 @@ TEST(Consistency, IsRefusedWhereTheFirstCovarianceIsMissing) {
 }
 
 TEST(CovarianceCsv, ReadsBackWhatItWrote) {
-  const auto path = std::filesystem::temp_directory_path() / "colonnade_covariance_test.csv";
+  const TemporaryFolder folder;
+  const auto path = folder / "covariance.csv";
   Eigen::Matrix3d P;
   P << 1, 0.1, 0.2, 0.1, 2, -0.3, 0.2, -0.3, 0.123456789012;
   writeCovarianceCsv(path, {{1700000000.25, P}, {1700000000.5, 2.0 * P}});
@@ -171,9 +173,9 @@ TEST(CovarianceCsv, ReadsBackWhatItWrote) {
   EXPECT_NEAR(rows[0].stamp_s, 1700000000.25, 1e-6);
   EXPECT_TRUE(rows[1].covariance.isApprox(2.0 * P, 1e-11));
   std::ofstream(path) << "stamp,xx,xy,xphi,yy,yphi,phiphi\n1,1,0,0,1,0\n";
-  EXPECT_THAT(readError(path), HasSubstr("colonnade_covariance_test.csv:2: a row has 7 numbers"));
-  std::ofstream(path) << "1,1,0,0,1,0,nan\n";
-  EXPECT_THAT(readError(path), HasSubstr(":1: \"nan\" is not a number"));
+  EXPECT_THAT(readError(path), HasSubstr("covariance.csv:2: the header has 7 columns, this row 6"));
+  std::ofstream(path) << "stamp,xx,xy,xphi,yy,yphi,phiphi\n1,1,0,0,1,0,nan\n";
+  EXPECT_THAT(readError(path), HasSubstr(":2: column phiphi: \"nan\" is not a number"));
   std::filesystem::remove(path);
   EXPECT_THAT(readError(path), HasSubstr("cannot be read"));
 }

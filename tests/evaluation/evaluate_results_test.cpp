@@ -11,8 +11,8 @@
 
 #include "colonnade/evaluation/covariance_csv.hpp"
 #include "colonnade/maps/landmark_csv.hpp"
+#include "folder_test.hpp"
 #include "shared_data.hpp"
-#include "temporary_folder.hpp"
 #include "test_paths.hpp"
 
 namespace colonnade {

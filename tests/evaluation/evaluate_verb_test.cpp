@@ -10,8 +10,8 @@
 #include <set>
 
 #include "colonnade/evaluation/covariance_csv.hpp"
+#include "folder_test.hpp"
 #include "shared_data.hpp"
-#include "temporary_folder.hpp"
 #include "test_paths.hpp"
 
 namespace colonnade {

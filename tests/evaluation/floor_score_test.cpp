@@ -9,7 +9,7 @@
 
 #include "colonnade/base/angle.hpp"
 #include "colonnade/base/error.hpp"
-#include "temporary_folder.hpp"
+#include "folder_test.hpp"
 
 namespace colonnade {
 namespace {

@@ -16,10 +16,10 @@ namespace colonnade {
 namespace {
 
 using testing::Bytes;
-using testing::Folder;
 using testing::readFile;
 using testing::readLog;
 using testing::record;
+using testing::TemporaryFolder;
 using testing::writeFile;
 using testing::writeLog;
 using Format = RawlogWriterOptions::Format;
@@ -40,7 +40,7 @@ struct SmallLog {
   std::vector<std::size_t> entry_ends;  ///< of the plain log
 };
 
-SmallLog smallLog(const Folder& folder, int gz_level) {
+SmallLog smallLog(const TemporaryFolder& folder, int gz_level) {
   SmallLog log;
   for (int frames = 1; frames <= 4; ++frames) {
     writeLog(folder / "whole.rawlog", frames, {.gz_level = gz_level});
@@ -51,7 +51,7 @@ SmallLog smallLog(const Folder& folder, int gz_level) {
 }
 
 TEST(Damage, APlainLogCutAnywhereGivesAllWholeEntriesBefore) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const auto log = smallLog(folder, 0);
   const auto cut = folder / "cut.rawlog";
   for (std::size_t i = 1; i <= 100; ++i) {
@@ -71,7 +71,7 @@ TEST(Damage, APlainLogCutAnywhereGivesAllWholeEntriesBefore) {
 }
 
 TEST(Damage, ACutBetweenTwoObjectsIsAnEnd) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const auto log = smallLog(folder, 0);
   writeFile(
       folder / "cut.rawlog",
@@ -82,7 +82,7 @@ TEST(Damage, ACutBetweenTwoObjectsIsAnEnd) {
 }
 
 TEST(Damage, AGzLogCutAnywhereIsCutAndKeepsWhatCameBefore) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const auto log = smallLog(folder, 1);
   std::size_t most = 0;
   for (std::size_t i = 1; i <= 100; ++i) {
@@ -106,7 +106,7 @@ bool sameFrames(const std::vector<Frame>& a, const std::vector<Frame>& b) {
 class Flips : public ::testing::TestWithParam<int> {};
 
 TEST_P(Flips, OneWrongBitNeverCrashesAndNeverGoesUnnoticedInGz) {
-  const Folder folder;
+  const TemporaryFolder folder;
   auto log = smallLog(folder, GetParam());
   writeFile(folder / "whole.rawlog", log.bytes);
   const auto whole = readLog(folder / "whole.rawlog");
@@ -134,7 +134,7 @@ TEST_P(Flips, OneWrongBitNeverCrashesAndNeverGoesUnnoticedInGz) {
 INSTANTIATE_TEST_SUITE_P(PlainAndGz, Flips, ::testing::Values(0, 1));
 
 TEST(Damage, AWrongChecksumLosesNoEntry) {
-  const Folder folder;
+  const TemporaryFolder folder;
   auto log = smallLog(folder, 1);
   log.bytes[log.bytes.size() - 6] ^= 0x10U;  // in the CRC, which 4 bytes of length follow
   writeFile(folder / "crc.rawlog", log.bytes);
@@ -145,7 +145,7 @@ TEST(Damage, AWrongChecksumLosesNoEntry) {
 }
 
 TEST(Damage, TwoGzMembersInARowAreOneLog) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const auto log = smallLog(folder, 1);
   writeLog(folder / "a.rawlog", 2);
   auto bytes = readFile(folder / "a.rawlog");
@@ -161,7 +161,7 @@ TEST(Damage, TwoGzMembersInARowAreOneLog) {
 }
 
 TEST(Damage, HugeCountsAreRefusedBeforeMemoryIsMade) {
-  const Folder folder;
+  const TemporaryFolder folder;
   writeLog(folder / "plain.rawlog", 2, {.gz_level = 0});
   auto bytes = readFile(folder / "plain.rawlog");
   // Rows and columns of the range image: the first place where its size stands.
@@ -179,7 +179,7 @@ TEST(Damage, HugeCountsAreRefusedBeforeMemoryIsMade) {
 }
 
 TEST(Damage, AMotionWhosePoseIsMissingIsDamageNotACrash) {
-  const Folder folder;
+  const TemporaryFolder folder;
   writeLog(folder / "a.rawlog", 3, {.format = Format::kActionSensoryFramePairs, .gz_level = 0});
   auto bytes = readFile(folder / "a.rawlog");
   // The class of the pose inside the second action, replaced by another registered class of the
@@ -197,7 +197,7 @@ TEST(Damage, AMotionWhosePoseIsMissingIsDamageNotACrash) {
 }
 
 TEST(Damage, AnUnknownClassIsNamed) {
-  const Folder folder;
+  const TemporaryFolder folder;
   writeLog(folder / "a.rawlog", 2, {.gz_level = 0});
   auto bytes = readFile(folder / "a.rawlog");
   const std::string name = "CObservationOdometry", other = "CObservationTelepathy";
@@ -213,7 +213,7 @@ TEST(Damage, AnUnknownClassIsNamed) {
 }
 
 TEST(Damage, SensorsNobodyAsksForAreCountedAndNoLoss) {
-  const Folder folder;
+  const TemporaryFolder folder;
   {
     testing::MrptLog log(folder / "a.rawlog");
     mrpt::obs::CObservationIMU imu;
@@ -232,7 +232,7 @@ TEST(Damage, SensorsNobodyAsksForAreCountedAndNoLoss) {
 }
 
 TEST(Refusal, SaysWhatIsWrongWithAFileThatIsNoLog) {
-  const Folder folder;
+  const TemporaryFolder folder;
   writeFile(folder / "empty.rawlog", {});
   EXPECT_NE(refusal(folder / "empty.rawlog").find("empty file, no frames"), std::string::npos);
 

@@ -15,8 +15,8 @@ namespace {
 
 using mrpt::obs::CObservation3DRangeScan;
 using mrpt::obs::CObservationImage;
-using testing::Folder;
 using testing::readLog;
+using testing::TemporaryFolder;
 
 constexpr int kWidth = 320, kHeight = 240;
 
@@ -63,7 +63,8 @@ void addImage(CObservation3DRangeScan& scan) {
 }
 
 template <class... Observations>
-Frame only(const Folder& folder, const SourceOptions& options, const Observations&... all) {
+Frame only(const TemporaryFolder& folder, const SourceOptions& options,
+           const Observations&... all) {
   {
     testing::MrptLog log(folder / "a.rawlog");
     (log.add(all), ...);
@@ -75,7 +76,7 @@ Frame only(const Folder& folder, const SourceOptions& options, const Observation
 }
 
 TEST(Registration, DepthIsSeenFromAColourCameraBesideIt) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const Eigen::Vector3d p_depth(0.0, 0.0, 0.0), p_colour(-0.025, 0.0, 0.01);
   auto scan = scene(camera(290, 290, 158.0, 121.0), p_depth);
   addImage(scan);
@@ -104,7 +105,7 @@ TEST(Registration, DepthIsSeenFromAColourCameraBesideIt) {
 }
 
 TEST(Registration, CoincidingCamerasKeepEveryPixel) {
-  const Folder folder;
+  const TemporaryFolder folder;
   auto scan = scene(camera(290, 290, 158.0, 121.0), Eigen::Vector3d::Zero());
   addImage(scan);
   const auto frame = only(folder, {}, scan);
@@ -115,7 +116,7 @@ TEST(Registration, CoincidingCamerasKeepEveryPixel) {
 }
 
 TEST(Registration, PixelAlignmentCanBeInsistedOn) {
-  const Folder folder;
+  const TemporaryFolder folder;
   auto scan = scene(camera(290, 290, 158.0, 121.0), Eigen::Vector3d::Zero());
   addImage(scan);
   scan.cameraParamsIntensity = camera(262, 263, 161.0, 118.5);
@@ -148,7 +149,7 @@ TEST(Registration, ADriversRegisteredDepthIsRecognisedByItsEdges) {
 }
 
 TEST(Depth, DistancesAlongTheRayBecomeDepth) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const auto intrinsics = camera(200, 200, 160, 120);
   auto scan = scene(intrinsics, Eigen::Vector3d::Zero());
   scan.range_is_depth = false;
@@ -166,7 +167,7 @@ TEST(Depth, DistancesAlongTheRayBecomeDepth) {
 }
 
 TEST(Poses, EveryClassGivesTheOpticalFrame) {
-  const Folder folder;
+  const TemporaryFolder folder;
   // Sensor 0.3 m ahead, 0.9 m up, looking 20 degrees down and turned 10 degrees left.
   const mrpt::poses::CPose3D sensor(0.3, 0.1, 0.9, 0.1745329, 0.3490659, 0.0);
   const mrpt::poses::CPose3D optical =
@@ -193,7 +194,7 @@ TEST(Poses, EveryClassGivesTheOpticalFrame) {
 }
 
 TEST(Poses, OptionsReplaceHeightAndTilt) {
-  const Folder folder;
+  const TemporaryFolder folder;
   auto scan = scene(camera(290, 290, 158.0, 121.0), Eigen::Vector3d::Zero());
   scan.sensorPose = mrpt::poses::CPose3D(0.3, 0.1, 0.9, 0.5, 0.0, 0.0);
   SourceOptions options;
@@ -211,7 +212,7 @@ TEST(Poses, OptionsReplaceHeightAndTilt) {
 }
 
 TEST(Lens, DistortionIsTakenOutOfImagesAndDepth) {
-  const Folder folder;
+  const TemporaryFolder folder;
   // Straight vertical lines of the world, drawn where a lens with strong barrel distortion puts
   // them (Brown's model, k1 only).
   const double f = 250, cx = 159.5, cy = 119.5, k1 = -0.25;
@@ -246,7 +247,7 @@ TEST(Lens, DistortionIsTakenOutOfImagesAndDepth) {
 }
 
 TEST(Calibration, MissingAsksForIt) {
-  const Folder folder;
+  const TemporaryFolder folder;
   CObservationImage image;
   image.timestamp = testing::stamp(1.0);
   image.image.resize(kWidth, kHeight, mrpt::img::CH_RGB);
@@ -277,7 +278,7 @@ TEST(Calibration, MissingAsksForIt) {
 }
 
 TEST(Calibration, OfAnotherSizeIsScaledAndOfOtherProportionsRefused) {
-  const Folder folder;
+  const TemporaryFolder folder;
   CObservationImage image;
   image.timestamp = testing::stamp(1.0);
   image.cameraParams = camera(580, 580, 319.5, 239.5);

@@ -10,11 +10,11 @@
 namespace colonnade {
 namespace {
 
-using testing::Folder;
 using testing::record;
+using testing::TemporaryFolder;
 
 TEST(Inspection, TellsSensorsRatesSizesAndGaps) {
-  const Folder folder;
+  const TemporaryFolder folder;
   {
     RawlogWriter writer(folder / "a.rawlog", {.camera_label = "XTION"});
     for (const int i : {0, 1, 2, 3, 4, 12, 13, 14, 20, 21}) writer.add(record(i));
@@ -45,7 +45,7 @@ TEST(Inspection, TellsSensorsRatesSizesAndGaps) {
 }
 
 TEST(Inspection, CountsActionsAndReportsACut) {
-  const Folder folder;
+  const TemporaryFolder folder;
   testing::writeLog(
       folder / "a.rawlog", 4,
       {.format = RawlogWriterOptions::Format::kActionSensoryFramePairs, .gz_level = 0});

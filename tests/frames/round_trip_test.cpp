@@ -12,10 +12,10 @@
 namespace colonnade {
 namespace {
 
-using testing::Folder;
 using testing::readFile;
 using testing::readLog;
 using testing::record;
+using testing::TemporaryFolder;
 using testing::writeLog;
 using Format = RawlogWriterOptions::Format;
 
@@ -31,7 +31,7 @@ struct Storage {
 class RoundTrip : public ::testing::TestWithParam<Storage> {};
 
 TEST_P(RoundTrip, KeepsEveryPixelStampAndPose) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const auto path = folder / "a.rawlog";
   writeLog(path, 5, {.format = GetParam().format, .gz_level = GetParam().gz_level});
   const auto log = readLog(path);
@@ -69,7 +69,7 @@ INSTANTIATE_TEST_SUITE_P(BothFormatsPlainAndGz, RoundTrip,
                                            Storage{Format::kActionSensoryFramePairs, 6}));
 
 TEST(RawlogWriter, GivesTheSameBytesForTheSameRecords) {
-  const Folder folder;
+  const TemporaryFolder folder;
   writeLog(folder / "a.rawlog", 3, {.format = Format::kActionSensoryFramePairs});
   writeLog(folder / "b.rawlog", 3, {.format = Format::kActionSensoryFramePairs});
   const auto bytes = readFile(folder / "a.rawlog");
@@ -79,7 +79,7 @@ TEST(RawlogWriter, GivesTheSameBytesForTheSameRecords) {
 }
 
 TEST(RawlogWriter, LeavesNothingBehindUnlessFinished) {
-  const Folder folder;
+  const TemporaryFolder folder;
   testing::writeFile(folder / "a.rawlog", {1, 2, 3});
   {
     RawlogWriter writer(folder / "a.rawlog");
@@ -90,7 +90,7 @@ TEST(RawlogWriter, LeavesNothingBehindUnlessFinished) {
 }
 
 TEST(RawlogWriter, NamesAFolderThatDoesNotExist) {
-  const Folder folder;
+  const TemporaryFolder folder;
   try {
     RawlogWriter writer(folder / "none/a.rawlog");
     FAIL() << "an error was expected";
@@ -101,7 +101,7 @@ TEST(RawlogWriter, NamesAFolderThatDoesNotExist) {
 }
 
 TEST(RawlogWriter, KeepsAJpegByteByByte) {
-  const Folder folder;
+  const TemporaryFolder folder;
   auto r = record(0);
   cv::Mat smooth;
   cv::resize(cv::Mat(6, 8, CV_8UC3, cv::Scalar(10, 120, 200)), smooth, {64, 48});
@@ -120,7 +120,7 @@ TEST(RawlogWriter, KeepsAJpegByteByByte) {
 }
 
 TEST(RawlogWriter, StoresGrayImagesAndCompressesColourOnRequest) {
-  const Folder folder;
+  const TemporaryFolder folder;
   auto r = record(0);
   r.image = testing::texture(3, CV_8UC1);
   RawlogWriter gray(folder / "gray.rawlog");
@@ -141,7 +141,7 @@ TEST(RawlogWriter, StoresGrayImagesAndCompressesColourOnRequest) {
 }
 
 TEST(RawlogWriter, WritesImagesWithoutDepthAndLandmarksOfOtherPrograms) {
-  const Folder folder;
+  const TemporaryFolder folder;
   auto r = record(0);
   r.depth_units.release();
   r.range_bearing =

@@ -22,9 +22,9 @@ namespace {
 using mrpt::obs::CObservation3DRangeScan;
 using mrpt::obs::CObservationImage;
 using mrpt::obs::CObservationOdometry;
-using testing::Folder;
 using testing::readLog;
 using testing::stamp;
+using testing::TemporaryFolder;
 
 mrpt::img::TCamera smallCamera() {
   mrpt::img::TCamera camera;
@@ -65,7 +65,7 @@ CObservationOdometry odometry(double stamp_s, const Pose2& pose) {
 }
 
 TEST(Assembly, ImageAndDepthJoinWithinTwoHundredthsOfASecond) {
-  const Folder folder;
+  const TemporaryFolder folder;
   {
     testing::MrptLog log(folder / "a.rawlog");
     log.add(image(1.000));
@@ -87,7 +87,7 @@ TEST(Assembly, ImageAndDepthJoinWithinTwoHundredthsOfASecond) {
 }
 
 TEST(Assembly, DepthAloneIsAFrameInALogWithoutImages) {
-  const Folder folder;
+  const TemporaryFolder folder;
   {
     testing::MrptLog log(folder / "a.rawlog");
     for (int i = 0; i < 3; ++i) log.add(depth(1.0 + 0.1 * i, 1500));
@@ -100,7 +100,7 @@ TEST(Assembly, DepthAloneIsAFrameInALogWithoutImages) {
 }
 
 TEST(Assembly, TheFirstCameraIsUsedUnlessAnotherIsAskedFor) {
-  const Folder folder;
+  const TemporaryFolder folder;
   {
     testing::MrptLog log(folder / "a.rawlog");
     for (int i = 0; i < 3; ++i) {
@@ -120,7 +120,7 @@ TEST(Assembly, TheFirstCameraIsUsedUnlessAnotherIsAskedFor) {
 }
 
 TEST(Assembly, StampsThatRepeatGoBackOrAreNoTimeAreRefused) {
-  const Folder folder;
+  const TemporaryFolder folder;
   {
     testing::MrptLog log(folder / "a.rawlog");
     log.add(image(10.0));
@@ -145,7 +145,7 @@ TEST(Assembly, StampsThatRepeatGoBackOrAreNoTimeAreRefused) {
 }
 
 TEST(Assembly, OdometryIsInterpolatedAtTheStampOfTheFrame) {
-  const Folder folder;
+  const TemporaryFolder folder;
   {
     testing::MrptLog log(folder / "a.rawlog");
     log.add(odometry(1.00, {0.0, 0.0, radians(170)}));
@@ -173,7 +173,7 @@ TEST(Assembly, OdometryIsInterpolatedAtTheStampOfTheFrame) {
 }
 
 TEST(Assembly, AHoleInTheOdometryIsNotBridged) {
-  const Folder folder;
+  const TemporaryFolder folder;
   {
     testing::MrptLog log(folder / "a.rawlog");
     log.add(odometry(1.0, {0, 0, 0}));
@@ -206,7 +206,7 @@ mrpt::obs::CActionCollection action(const Pose2& motion, const Eigen::Matrix3d& 
 }
 
 TEST(Assembly, ActionsAddUpBetweenFramesWithTheirCovariance) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const Pose2 motions[] = {{0.5, 0.1, 0.4}, {0.3, -0.1, -0.2}, {0.2, 0.05, 0.1}};
   const Eigen::Matrix3d each = Eigen::Vector3d(1e-4, 4e-4, 9e-4).asDiagonal();
   {
@@ -253,7 +253,7 @@ TEST(Assembly, ActionsAddUpBetweenFramesWithTheirCovariance) {
 }
 
 TEST(Assembly, SensoryFramesWithoutActionsHaveNoOdometry) {
-  const Folder folder;
+  const TemporaryFolder folder;
   {
     testing::MrptLog log(folder / "a.rawlog");
     for (int i = 0; i < 3; ++i) {
@@ -271,7 +271,7 @@ TEST(Assembly, SensoryFramesWithoutActionsHaveNoOdometry) {
 }
 
 TEST(Assembly, AMissingImageFileLosesTheImageOnly) {
-  const Folder folder;
+  const TemporaryFolder folder;
   std::filesystem::create_directories(folder / "a_Images");
   {
     testing::MrptLog log(folder / "a.rawlog");

@@ -16,8 +16,8 @@
 namespace colonnade {
 namespace {
 
-using testing::Folder;
 using testing::readLog;
+using testing::TemporaryFolder;
 
 void writeText(const std::filesystem::path& path, const std::string& text) {
   std::ofstream(path) << text;
@@ -55,7 +55,7 @@ class TumFolder {
   }
 
  private:
-  Folder folder_;
+  TemporaryFolder folder_;
 };
 
 std::string usageError(const TumImportOptions& options) {
@@ -171,7 +171,7 @@ TEST(TumImport, StemsDropBothEndings) {
 
 TEST(TumImport, TheCorridorRecordingKeepsEveryDepthValue) {
   COLONNADE_REQUIRE_RECORDING(corridor, "corridor_xtion");
-  const Folder folder;
+  const TemporaryFolder folder;
   TumImportOptions options;
   options.folder = corridor;
   options.log = folder / "corridor.rawlog";

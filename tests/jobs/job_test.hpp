@@ -3,7 +3,6 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <stdlib.h>
 
 #include <filesystem>
 #include <fstream>
@@ -11,19 +10,13 @@
 #include <string>
 
 #include "colonnade/jobs/job_runner.hpp"
+#include "temporary_folder.hpp"
 
 namespace colonnade::testing {
 
 /// A folder of its own for each test, and shell scripts as jobs.
 class JobTest : public ::testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = std::filesystem::temp_directory_path() / "colonnade_jobs_XXXXXX";
-    ASSERT_NE(nullptr, ::mkdtemp(name.data()));
-    folder_ = name;
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   Job shell(const std::string& name, const std::string& script) const {
     Job job;
     job.name = name;
@@ -38,7 +31,8 @@ class JobTest : public ::testing::Test {
     return text.str();
   }
 
-  std::filesystem::path folder_;
+  const TemporaryFolder temporary_;
+  const std::filesystem::path folder_ = temporary_.path();
 };
 
 }  // namespace colonnade::testing

@@ -10,6 +10,7 @@
 #include "colonnade/base/pose2.hpp"
 #include "colonnade/filter/landmark_map.hpp"
 #include "colonnade/frames/frame.hpp"
+#include "temporary_folder.hpp"
 
 namespace colonnade::testing {
 
@@ -38,20 +39,6 @@ Frame renderFrame(const Walls& walls, const Pose2& T_world_robot,
                   const Eigen::Isometry3d& T_robot_camera, double stamp_s);
 
 LandmarkMap someLandmarks();
-
-/// A folder of its own below the system's temporary one, gone with the object.
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-
- private:
-  std::filesystem::path path_;
-};
 
 std::string contentOf(const std::filesystem::path& path);
 void writeText(const std::filesystem::path& path, const std::string& text);

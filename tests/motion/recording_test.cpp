@@ -13,6 +13,7 @@
 #include "colonnade/frames/tum_import.hpp"
 #include "colonnade/motion/motion_estimator.hpp"
 #include "shared_data.hpp"
+#include "temporary_folder.hpp"
 
 namespace colonnade {
 namespace {
@@ -72,9 +73,9 @@ double alignedRmse(const std::vector<Pose2>& estimate,
 }
 
 /// What `run` does before the filter, over a recording imported as a user would.
-Result track(const std::filesystem::path& folder, const std::string& name) {
-  const auto log =
-      std::filesystem::temp_directory_path() / ("colonnade_motion_" + name + ".rawlog");
+Result track(const std::filesystem::path& folder) {
+  const testing::TemporaryFolder temporary;
+  const auto log = temporary / "recording.rawlog";
   TumImportOptions import;
   import.folder = folder;
   import.log = log;
@@ -132,7 +133,7 @@ Result track(const std::filesystem::path& folder, const std::string& name) {
 
 TEST(Recording, CarriedThroughACorridorWithATurn) {
   COLONNADE_REQUIRE_RECORDING(folder, "corridor_xtion");
-  const Result result = track(folder, "corridor");
+  const Result result = track(folder);
   EXPECT_EQ(result.frames, 120);
   EXPECT_GE(result.matched, 110);
   EXPECT_EQ(result.failures, 0);
@@ -143,7 +144,7 @@ TEST(Recording, CarriedThroughACorridorWithATurn) {
 
 TEST(Recording, BareWallsWithoutTexture) {
   COLONNADE_REQUIRE_RECORDING(folder, "tum_fr3_structure_notexture_far");
-  const Result result = track(folder, "far");
+  const Result result = track(folder);
   EXPECT_GE(result.frames, 120);
   EXPECT_EQ(result.failures, 0);
   EXPECT_LT(result.ate_rmse_m, 0.03);
@@ -153,7 +154,7 @@ TEST(Recording, BareWallsWithoutTexture) {
 
 TEST(Recording, LargeStepsAroundACabinet) {
   COLONNADE_REQUIRE_RECORDING(folder, "tum_fr3_cabinet");
-  const Result result = track(folder, "cabinet");
+  const Result result = track(folder);
   EXPECT_GE(result.frames, 50);
   EXPECT_LE(result.failures, 2);
   EXPECT_LT(result.ate_rmse_m, 0.10);

@@ -14,6 +14,7 @@
 #include "colonnade/maps/landmark_csv.hpp"
 #include "colonnade/simulation/renderer.hpp"
 #include "colonnade/simulation/simulator.hpp"
+#include "temporary_folder.hpp"
 #include "test_worlds.hpp"
 
 namespace colonnade {
@@ -23,14 +24,9 @@ class Columns : public ::testing::Test {
  protected:
   void SetUp() override {
     if (const auto why = whyNoRendering(); !why.empty()) GTEST_SKIP() << why;
-    folder_ = std::filesystem::temp_directory_path() /
-              ("colonnade_columns_" + std::to_string(::getpid()));
-    std::filesystem::create_directories(folder_);
   }
-  void TearDown() override {
-    if (!folder_.empty()) std::filesystem::remove_all(folder_);
-  }
-  std::filesystem::path folder_;
+  const testing::TemporaryFolder temporary_;
+  const std::filesystem::path folder_ = temporary_.path();
 };
 
 /// Rows of a columns file: frame and the fields.

@@ -18,6 +18,7 @@
 #include "colonnade/maps/landmark_csv.hpp"
 #include "colonnade/simulation/drive.hpp"
 #include "colonnade/simulation/renderer.hpp"
+#include "temporary_folder.hpp"
 #include "test_worlds.hpp"
 
 namespace colonnade {
@@ -32,14 +33,9 @@ class Simulator : public ::testing::Test {
  protected:
   void SetUp() override {
     if (const auto why = whyNoRendering(); !why.empty()) GTEST_SKIP() << why;
-    folder_ = std::filesystem::temp_directory_path() /
-              ("colonnade_simulator_" + std::to_string(::getpid()));
-    std::filesystem::create_directories(folder_);
   }
-  void TearDown() override {
-    if (!folder_.empty()) std::filesystem::remove_all(folder_);
-  }
-  std::filesystem::path folder_;
+  const testing::TemporaryFolder temporary_;
+  const std::filesystem::path folder_ = temporary_.path();
 };
 
 TEST_F(Simulator, logReadsBackWithTheTruthBesideIt) {

@@ -97,8 +97,9 @@ RunRecord carryOut(const PlannedRun& run, const PlannedDrive& drive, const Campa
   };
   auto result = process(run.name(), run.run_arguments, said, {}, campaign.timeout_s);
   record.timing = {{"wall_s", result.wall_s}, {"cpu_s", result.cpu_s}};
-  if (!result.ok()) failed("run", result, said);
-  // A run that lost input (exit 3) still has results to score.
+  // A run that lost input still has results, which are judged like any other's.
+  const bool lossy = codeOf(result) == static_cast<int>(ExitCode::kLossy);
+  if (!result.ok() && !lossy) failed("run", result, said);
   if (!fs::exists(run.results() / "summary.json")) {
     if (!record.failed()) record.failure = "run: wrote no summary.json";
     return record;

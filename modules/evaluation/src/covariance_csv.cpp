@@ -2,13 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "colonnade/evaluation/covariance_csv.hpp"
 
-#include <array>
-#include <cmath>
-#include <fstream>
 #include <string>
 
 #include "colonnade/base/atomic_file.hpp"
-#include "colonnade/base/error.hpp"
+#include "colonnade/base/csv_table.hpp"
 #include "colonnade/base/text.hpp"
 
 namespace colonnade {
@@ -32,32 +29,16 @@ void writeCovarianceCsv(const std::filesystem::path& path,
 }
 
 std::vector<StampedCovariance> readCovarianceCsv(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  if (!file || std::filesystem::is_directory(path))
-    throw Error(path.string() + ": cannot be read as covariances of a trajectory");
+  CsvTable table(path, fields(kHeader, ','), "covariances of a trajectory");
   std::vector<StampedCovariance> rows;
-  std::string line;
-  for (int number = 1; std::getline(file, line); ++number) {
-    const auto complain = [&](const std::string& what) {
-      throw Error(path.string() + ":" + std::to_string(number) + ": " + what);
-    };
-    line = trimmed(line);
-    if (line.empty() || line.front() == '#' || (number == 1 && line == kHeader)) continue;
-    const auto entries = fields(line, ',');
-    if (entries.size() != 7)
-      complain("a row has 7 numbers (" + std::string(kHeader) + "), found " +
-               std::to_string(entries.size()));
-    std::array<double, 7> v{};
-    for (std::size_t i = 0; i < v.size(); ++i) {
-      const auto value = parseDouble(entries[i]);
-      if (!value || !std::isfinite(*value)) complain("\"" + entries[i] + "\" is not a number");
-      v[i] = *value;
-    }
-    if (!rows.empty() && v[0] <= rows.back().stamp_s)
-      complain("the stamp does not grow; sort the file by its first column");
+  while (const auto entry = table.next()) {
     StampedCovariance row;
-    row.stamp_s = v[0];
-    row.covariance << v[1], v[2], v[3], v[2], v[4], v[5], v[3], v[5], v[6];
+    row.stamp_s = entry->number("stamp");
+    if (!rows.empty() && row.stamp_s <= rows.back().stamp_s)
+      entry->complain("stamp", "above the one before; sort the file by it");
+    const double xx = entry->number("xx"), xy = entry->number("xy"), xphi = entry->number("xphi");
+    const double yy = entry->number("yy"), yphi = entry->number("yphi");
+    row.covariance << xx, xy, xphi, xy, yy, yphi, xphi, yphi, entry->number("phiphi");
     rows.push_back(row);
   }
   return rows;
