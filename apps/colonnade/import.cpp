@@ -124,6 +124,7 @@ Action addTum(CLI::App& verb) {
 struct MrclamArguments {
   MrclamImportOptions options;
   double bearing_sigma_deg = degrees(MrclamImportOptions{}.bearing_sigma);
+  bool as_recorded = false;
 };
 
 LandmarkMap truthOf(const MrclamImportResult& result) {
@@ -143,12 +144,20 @@ LandmarkMap truthOf(const MrclamImportResult& result) {
 void report(const MrclamImportResult& result, const MrclamImportOptions& options,
             const std::string& landmark_file) {
   const auto& noise = options.odometry;
+  const auto& c = options.calibration;
   std::size_t of_robots = 0;
   for (const auto& [subject, count] : result.robot_readings) of_robots += count;
   std::cout << options.log.string() << ": " << result.frames
             << " action and sensory-frame pairs, one for each measurement stamp, "
             << result.readings << " readings of landmarks, way by odometry "
             << formatFixed(result.path_m, 1) << " m\n"
+            << "motion     " << formatDouble(c.drive_delay_s) << " s after the command, "
+            << formatDouble(c.speed_gain) << " of its speed less " << formatDouble(c.slowed_by_turn)
+            << " m for a radian of turn, " << formatDouble(c.turn_gain) << " of its turn\n"
+            << "ranges     "
+            << (c.range_is_depth ? "from depths along the optical axis, read as " : "read as ")
+            << formatDouble(c.depth_offset_m) << " m + " << formatDouble(c.depth_gain)
+            << " times; stamped " << formatDouble(c.camera_delay_s) << " s after the image\n"
             << "sigmas     range " << formatDouble(options.range_sigma_m) << " m, bearing "
             << formatDouble(degrees(options.bearing_sigma), 6) << " deg; odometry along "
             << formatDouble(noise.along_m) << " m and across " << formatDouble(noise.across_m)
@@ -182,6 +191,8 @@ Action addMrclam(CLI::App& verb) {
                   "degrees, written into the observations")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
+  verb.add_flag("--as-recorded", arguments->as_recorded,
+                "take commands for motion and barcode heights for ranges, as the files have them");
   verb.footer(
       "Examples:\n"
       "  colonnade import mrclam MRCLAM_Dataset7 --robot 3 -o robot3.rawlog\n"
@@ -189,6 +200,7 @@ Action addMrclam(CLI::App& verb) {
   return [arguments] {
     auto& chosen = arguments->options;
     chosen.bearing_sigma = radians(arguments->bearing_sigma_deg);
+    if (arguments->as_recorded) chosen.calibration = MrclamCalibration::asRecorded();
     if (std::filesystem::exists(chosen.log))
       throw Error(chosen.log.string() + ": exists; give -o a new name", ExitCode::kUsage);
     Progress progress;

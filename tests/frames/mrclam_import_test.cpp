@@ -35,6 +35,7 @@ class MrclamImport : public ::testing::Test {
           "11.0 63 2.0 0.75\n11.2 99 1.0 0.0\n");
     options_.folder = folder_;
     options_.log = folder_ / "robot1.rawlog";
+    options_.calibration = MrclamCalibration::asRecorded();
   }
   void TearDown() override { fs::remove_all(folder_); }
 
@@ -103,6 +104,57 @@ TEST_F(MrclamImport, IntegratesWheelSpeedsAsArcs) {
   const Pose2 whole = poses[0].inverse() * poses[3];
   EXPECT_NEAR(whole.x, 0.04 + 0.2 * std::sin(0.4), 1e-9);
   EXPECT_NEAR(whole.phi, 0.4, 1e-9);
+}
+
+TEST_F(MrclamImport, TurnsCommandsIntoMotionAndBarcodeHeightsIntoRanges) {
+  MrclamCalibration& c = options_.calibration;
+  c = MrclamCalibration{};
+  c.drive_delay_s = 0.1;
+  c.camera_delay_s = 0.05;
+  importMrclam(options_);
+  RawlogSource source(options_.log);
+  std::vector<Frame> frames;
+  while (auto frame = source.next()) frames.push_back(*frame);
+  ASSERT_EQ(frames.size(), 4u);
+  EXPECT_NEAR(frames[0].stamp_s, 10.2, 1e-6);  // stamps stay those of the data set
+  // From 10.2 to 10.55 straight with the first command, then 0.4 s turning with the second, which
+  // slows the robot down, then rest.
+  const Pose2 whole = frames[0].odometry->T_odom_robot.inverse() * frames[3].odometry->T_odom_robot;
+  const double straight_m = 0.35 * c.speed_gain * 0.2;
+  const double turn = 0.4 * c.turn_gain;
+  const double radius_m = (c.speed_gain * 0.2 - c.slowed_by_turn) / c.turn_gain;
+  EXPECT_NEAR(whole.phi, turn, 1e-9);
+  EXPECT_NEAR(whole.x, straight_m + radius_m * std::sin(turn), 1e-9);
+  EXPECT_NEAR(whole.y, radius_m * (1.0 - std::cos(turn)), 1e-9);
+  // A landmark 0.75 rad beside the axis is farther away than its depth.
+  const RangeBearing& beside = frames[2].range_bearing->readings[1];
+  EXPECT_NEAR(beside.range_m, (2.0 - c.depth_offset_m) / c.depth_gain / std::cos(0.75), 1e-6);
+  EXPECT_NEAR(beside.yaw, 0.75, 1e-6);
+}
+
+TEST_F(MrclamImport, CalibrationBringsRobotsItWasNotMadeFromNearerToTheTruth) {
+  COLONNADE_REQUIRE_RECORDING(data, "mrclam7");
+  options_.folder = data;
+  for (const int robot : {4, 5}) {
+    options_.robot = robot;
+    const auto recorded = importMrclam(options_);
+    options_.calibration = MrclamCalibration{};
+    options_.log = folder_ / ("calibrated" + std::to_string(robot) + ".rawlog");
+    const auto calibrated = importMrclam(options_);
+    options_.calibration = MrclamCalibration::asRecorded();
+    options_.log = folder_ / ("recorded" + std::to_string(robot + 1) + ".rawlog");
+    const Trajectory truth = readTum(calibrated.ground_truth);
+    // Standing still, motion capture trembles by less than this between poses 0.5 s apart.
+    double way_m = 0.0;
+    Eigen::Vector3d last = truth.front().T_world_body.translation();
+    for (const StampedPose& pose : truth)
+      if ((pose.T_world_body.translation() - last).norm() > 0.02) {
+        way_m += (pose.T_world_body.translation() - last).norm();
+        last = pose.T_world_body.translation();
+      }
+    EXPECT_NEAR(calibrated.path_m / way_m, 1.0, 0.03) << robot;
+    EXPECT_GT(recorded.path_m / way_m, 1.05) << robot;
+  }
 }
 
 TEST_F(MrclamImport, CovarianceDoesNotDependOnHowAnArcIsCut) {

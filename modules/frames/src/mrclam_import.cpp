@@ -17,10 +17,20 @@ constexpr int kRobots = 5;
 constexpr double kLastSpeedHolds_s =
     1.0;  ///< after the last record; between records until the next
 
+constexpr double kWidestBearing = radians(80.0);  ///< no camera sees wider
+
 /// Wheel speeds as a function of time, walked through once.
 class Wheels {
  public:
-  explicit Wheels(std::vector<WheelSpeed> speeds) : speeds_(std::move(speeds)) {}
+  Wheels(std::vector<WheelSpeed> commands, const MrclamCalibration& calibration)
+      : speeds_(std::move(commands)) {
+    const double delay_s = calibration.drive_delay_s + calibration.camera_delay_s;
+    for (WheelSpeed& speed : speeds_) {
+      speed.stamp_s += delay_s;
+      speed.speed_m_s = driven(speed, calibration);
+      speed.turn_rate *= calibration.turn_gain;
+    }
+  }
 
   /// The motion from one time to a later one. Nothing is known before the first record: rest.
   ArcSum between(double from_s, double to_s, const WheelSpeedNoise& noise) {
@@ -39,9 +49,21 @@ class Wheels {
   }
 
  private:
+  /// A turn slows the robot down, but never turns it round; turning on the spot it stays there.
+  static double driven(const WheelSpeed& command, const MrclamCalibration& calibration) {
+    const double straight = calibration.speed_gain * command.speed_m_s;
+    const double lost = calibration.slowed_by_turn * std::abs(command.turn_rate);
+    return std::copysign(std::max(0.0, std::abs(straight) - lost), straight);
+  }
+
   std::vector<WheelSpeed> speeds_;
   std::size_t current_ = 0;
 };
+
+double rangeOf(const BarcodeReading& reading, const MrclamCalibration& calibration) {
+  const double depth = (reading.range_m - calibration.depth_offset_m) / calibration.depth_gain;
+  return calibration.range_is_depth ? depth / std::cos(reading.bearing) : depth;
+}
 
 /// The readings of one stamp that are of landmarks; the others are counted.
 RangeBearingScan scanOf(const std::vector<BarcodeReading>& readings, std::size_t begin,
@@ -53,14 +75,15 @@ RangeBearingScan scanOf(const std::vector<BarcodeReading>& readings, std::size_t
   for (std::size_t i = begin; i < end; ++i) {
     const BarcodeReading& reading = readings[i];
     const auto subject = subject_of_barcode.find(reading.barcode);
+    const double range_m = rangeOf(reading, options.calibration);
     if (subject == subject_of_barcode.end())
       ++result.unknown_barcodes[reading.barcode];
     else if (subject->second <= kRobots)
       ++result.robot_readings[subject->second];
-    else if (reading.range_m <= 0.0)
+    else if (!(range_m > 0.0) || std::abs(reading.bearing) > kWidestBearing)
       ++result.bad_ranges;
     else {
-      scan.readings.push_back({subject->second, reading.range_m, reading.bearing, 0.0});
+      scan.readings.push_back({subject->second, range_m, reading.bearing, 0.0});
       for (MrclamLandmark& landmark : result.landmarks)
         if (landmark.subject == subject->second) ++landmark.readings;
     }
@@ -70,6 +93,17 @@ RangeBearingScan scanOf(const std::vector<BarcodeReading>& readings, std::size_t
 }
 
 }  // namespace
+
+MrclamCalibration MrclamCalibration::asRecorded() {
+  return {.drive_delay_s = 0.0,
+          .speed_gain = 1.0,
+          .slowed_by_turn = 0.0,
+          .turn_gain = 1.0,
+          .camera_delay_s = 0.0,
+          .range_is_depth = false,
+          .depth_offset_m = 0.0,
+          .depth_gain = 1.0};
+}
 
 Pose2 arcOf(double speed_m_s, double turn_rate, double duration_s) {
   const double way = speed_m_s * duration_s;
@@ -107,7 +141,7 @@ MrclamImportResult importMrclam(const MrclamImportOptions& options) {
     throw Error(options.folder.string() + ": no such folder");
   const auto subject_of_barcode = readSubjectOfBarcode(options.folder);
   const auto readings = readBarcodeReadings(options.folder, options.robot);
-  Wheels wheels(readWheelSpeeds(options.folder, options.robot));
+  Wheels wheels(readWheelSpeeds(options.folder, options.robot), options.calibration);
   const Trajectory truth = readMrclamTruth(options.folder, options.robot);
 
   MrclamImportResult result;
