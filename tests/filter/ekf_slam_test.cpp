@@ -11,6 +11,7 @@
 #include "colonnade/base/angle.hpp"
 #include "colonnade/filter/covariance.hpp"
 #include "colonnade/filter/gate.hpp"
+#include "consistency_study.hpp"
 #include "simulated_hall.hpp"
 
 namespace colonnade {
@@ -242,6 +243,35 @@ TEST(Consistency, TheInvariantFilterStaysHonestWhereThePlainOneDoesNot) {
   EXPECT_LT(invariant, 1.7);
   EXPECT_GT(invariant, 0.5);
   EXPECT_GT(plain, 1.5 * invariant);
+}
+
+TEST(Consistency, NeesAndNisOfAHallWithLandmarksOfEveryKindAreOne) {
+  testing::ConsistencySetting setting;
+  setting.runs = 40;
+  setting.filter.gate_probability = 0.999999;
+  const auto c = testing::studyConsistency(setting);
+  // 120 degrees of freedom at each instant: one standard deviation is 0.13.
+  for (const double nees : c.nees) {
+    EXPECT_GT(nees, 0.6);
+    EXPECT_LT(nees, 1.5);
+  }
+  EXPECT_GT(c.nees_mean, 0.85);
+  EXPECT_LT(c.nees_mean, 1.2);
+  for (const double nis : c.nis) EXPECT_NEAR(nis, 1.0, 0.1);
+  EXPECT_NEAR(c.nis_axis, 1.0, 0.1);
+}
+
+TEST(Consistency, WithoutAxesThePlainFilterGrowsTooSureRoundByRound) {
+  testing::ConsistencySetting setting;
+  setting.runs = 25;
+  setting.steps = 4 * testing::BuildingHall::kStepsARound;
+  setting.noise = testing::HallNoise{}.times(3.0);
+  setting.axes = false;
+  const auto invariant = testing::studyConsistency(setting);
+  setting.filter.invariant = false;
+  const auto plain = testing::studyConsistency(setting);
+  EXPECT_LT(invariant.nees_mean, 1.5);
+  EXPECT_GT(plain.nees_mean, 1.2 * invariant.nees_mean);
 }
 
 }  // namespace
