@@ -8,6 +8,7 @@
 #include "colonnade/base/atomic_file.hpp"
 #include "colonnade/base/text.hpp"
 #include "colonnade/base/trajectory.hpp"
+#include "colonnade/edges/edge_line_backend.hpp"
 #include "colonnade/jobs/job_runner.hpp"
 #include "compare_table.hpp"
 #include "results_folder.hpp"
@@ -27,6 +28,7 @@ struct Arguments {
   int jobs = 1;
   double timeout_s = 3600.0;
   bool ablations = false;
+  std::string backend = kDefaultBackend;
 };
 
 /// One run of one method.
@@ -73,7 +75,8 @@ ExitCode compare(const Arguments& arguments) {
   notes.contents.truth = !arguments.ground_truth.empty();
   notes.jobs = arguments.jobs;
   notes.random_runs = arguments.runs;
-  const auto methods = comparedMethods(notes.contents, arguments.runs, arguments.ablations);
+  const auto methods =
+      comparedMethods(notes.contents, arguments.runs, arguments.ablations, arguments.backend);
   const fs::path folder = makeResultsFolder(arguments.output, arguments.log);
   fs::create_directories(folder / "runs");
   fs::create_directories(folder / "logs");
@@ -131,6 +134,9 @@ Action addCompare(CLI::App& verb) {
       ->capture_default_str();
   verb.add_flag("--ablations", arguments->ablations,
                 "also Colonnade without one part each, and with each edge backend");
+  verb.add_option("--backend", arguments->backend,
+                  "image stage of Colonnade's runs: fixed, opencv, rtl")
+      ->capture_default_str();
   verb.footer(
       "Examples:\n"
       "  colonnade compare corridor.rawlog -o comparison --ground-truth "

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "compare_methods.hpp"
 
+#include "colonnade/accelerator/rtl_backend.hpp"
 #include "colonnade/base/error.hpp"
-#include "colonnade/edges/edge_line_backend.hpp"
 #include "colonnade/frames/rawlog_source.hpp"
 #include "run_options.hpp"
 
@@ -24,12 +24,12 @@ ComparedMethod ablation(const std::string& key, const std::string& label,
   return {key, "without " + label, with({"run"}, {assignment}), 1, assignment, ""};
 }
 
-bool hasBackend(const std::string& name) {
-  try {
-    makeEdgeLineBackend(name, {});
-    return true;
-  } catch (const Error&) {
-    return false;
+/// Every method of this program that looks at edges, with another backend than the default.
+void useBackend(std::vector<ComparedMethod>& methods, const std::string& backend) {
+  for (ComparedMethod& method : methods) {
+    if (method.arguments.front() != "run") continue;
+    method.arguments.insert(method.arguments.end(), {"--backend", backend});
+    method.how += ", --backend " + backend;
   }
 }
 
@@ -39,14 +39,6 @@ void addAblations(std::vector<ComparedMethod>& methods) {
   methods.push_back(ablation("no-depth-slopes", "depth slopes", "DepthSlopes.enabled=false"));
   methods.push_back(ablation("no-axes", "building axes", "Axes.enabled=false"));
   methods.push_back(ablation("plain-ekf", "invariant filter", "Filter.invariant=false"));
-  for (const char* backend : {"fixed", "rtl"})  // the first row has opencv
-    if (hasBackend(backend))
-      methods.push_back({std::string("backend-") + backend,
-                         std::string("edges: ") + backend,
-                         {"run", "--backend", backend},
-                         1,
-                         std::string("--backend ") + backend,
-                         ""});
 }
 
 }  // namespace
@@ -71,7 +63,8 @@ LogContents contentsOf(const std::filesystem::path& log, const std::filesystem::
 }
 
 std::vector<ComparedMethod> comparedMethods(const LogContents& contents, int random_runs,
-                                            bool ablations) {
+                                            bool ablations, const std::string& backend) {
+  makeImageStage(backend, {});  // refuses a name that no run would take
   const std::string no_depth = contents.depth ? "" : "no depth in the log";
   const std::string no_image = contents.image ? no_depth : "no image in the log";
   std::vector<ComparedMethod> methods;
@@ -112,6 +105,16 @@ std::vector<ComparedMethod> comparedMethods(const LogContents& contents, int ran
                      "the log's wheel odometry",
                      contents.odometry ? "" : "no wheel odometry in the log"});
   if (ablations) addAblations(methods);
+  if (backend != kDefaultBackend) useBackend(methods, backend);
+  for (const std::string other : {"fixed", "opencv", "rtl"}) {
+    if (!ablations || other == backend) continue;
+    methods.push_back({"backend-" + other,
+                       "edges: " + other,
+                       {"run", "--backend", other},
+                       1,
+                       "--backend " + other,
+                       ""});
+  }
   return methods;
 }
 

@@ -31,8 +31,8 @@ struct ComparedMethod {
 };
 
 /// Colonnade, its motion alone, MRPT's methods and, if asked for, Colonnade without one part each
-/// and with each edge backend this program has.
+/// and with each of the other edge backends. Throws Error (kUsage) for an unknown backend.
 std::vector<ComparedMethod> comparedMethods(const LogContents& contents, int random_runs,
-                                            bool ablations);
+                                            bool ablations, const std::string& backend);
 
 }  // namespace colonnade

@@ -33,7 +33,7 @@ struct DetectArguments {
   fs::path input;
   fs::path output;
   fs::path config;
-  std::string backend = "opencv";
+  std::string backend = kDefaultBackend;
   std::vector<std::string> assignments;
   std::size_t picture_every = 1;
   bool score = false;
@@ -172,7 +172,8 @@ Action addDetect(CLI::App& verb) {
   verb.add_option("LOG_OR_IMAGE", arguments->input, "rawlog, or one picture")->required();
   verb.add_option("-o,--output", arguments->output, "new folder; default: stem + _results");
   verb.add_option("-c,--config", arguments->config, "INI file, such as config.ini of a run");
-  verb.add_option("--backend", arguments->backend, "image stage")->capture_default_str();
+  verb.add_option("--backend", arguments->backend, "image stage: fixed, opencv, rtl")
+      ->capture_default_str();
   verb.add_option("--set", arguments->assignments, "Section.key=value, wins over the file")
       ->allow_extra_args(false);
   verb.add_option("--picture-every", arguments->picture_every, "frames; 0: no pictures")

@@ -29,7 +29,7 @@ struct RunArguments {
   fs::path log;
   fs::path config;
   fs::path output;
-  std::string backend = "opencv";
+  std::string backend = kDefaultBackend;
   fs::path ground_truth;
   std::vector<std::string> assignments;
 };
@@ -216,7 +216,7 @@ Action addRun(CLI::App& verb) {
   verb.add_option("-c,--config", arguments->config,
                   "INI file; what it does not name stays default");
   verb.add_option("-o,--output", arguments->output, "new folder; default: LOG's stem + _results");
-  verb.add_option("--backend", arguments->backend, "image stage: opencv, fixed, rtl")
+  verb.add_option("--backend", arguments->backend, "image stage: fixed, opencv, rtl")
       ->capture_default_str();
   verb.add_option("--ground-truth", arguments->ground_truth, "robot poses, TUM file: adds a score");
   verb.add_option("--set", arguments->assignments, "Section.key=value, wins over the file")

@@ -26,7 +26,7 @@ const CameraPlace kPlace{1.2, radians(10.0), 0.0, 0.0, {0.0, 0.0}};
 
 TEST(DetectorBank, FindsAllKindsInOneRoom) {
   const Frame frame = render(room(), kPlace);
-  const auto edges = makeEdgeLineBackend("opencv", {})->extract(frame.gray);
+  const auto edges = makeEdgeLineBackend(kDefaultBackend, {})->extract(frame.gray);
   DetectorBank bank;
   const auto all = bank.detect(frame, edges);
   EXPECT_GE(accepted(all, LandmarkKind::kPillarEdge).size(), 2U);
@@ -40,7 +40,7 @@ TEST(DetectorBank, FindsAllKindsInOneRoom) {
 
 TEST(DetectorBank, LeavesOutTheKindsThatAreSwitchedOff) {
   const Frame frame = render(room(), kPlace);
-  const auto edges = makeEdgeLineBackend("opencv", {})->extract(frame.gray);
+  const auto edges = makeEdgeLineBackend(kDefaultBackend, {})->extract(frame.gray);
   const auto kinds = [&](const DetectorOptions& options) {
     std::set<LandmarkKind> seen;
     for (const auto& detection : DetectorBank(options).detect(frame, edges))
@@ -58,7 +58,7 @@ TEST(DetectorBank, LeavesOutTheKindsThatAreSwitchedOff) {
 }
 
 TEST(DetectorBank, SurvivesDamagedFrames) {
-  const auto backend = makeEdgeLineBackend("opencv", {});
+  const auto backend = makeEdgeLineBackend(kDefaultBackend, {});
   DetectorBank bank;
   const auto run = [&](const Frame& frame) {
     const auto edges = backend->extract(frame.gray);

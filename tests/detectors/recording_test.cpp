@@ -48,7 +48,7 @@ TEST(Recordings, ACorridorGivesPillarsFloorEdgesOnBothSidesAndCorners) {
   int with_both_sides = 0;
   int corners = 0;
   int walls = 0;
-  const auto backend = makeEdgeLineBackend("opencv", {});
+  const auto backend = makeEdgeLineBackend(kDefaultBackend, {});
   DetectorBank bank;
   for (std::size_t i = 0; i < 80; i += 8) {  // walking along the corridor
     const auto frame =

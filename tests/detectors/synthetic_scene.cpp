@@ -121,7 +121,7 @@ Frame withNoise(const Frame& frame, double gray_sigma, std::uint32_t seed) {
 }
 
 Detections detectAll(const Frame& frame, const DetectorOptions& options) {
-  const auto edges = makeEdgeLineBackend("opencv", {})->extract(frame.gray);
+  const auto edges = makeEdgeLineBackend(kDefaultBackend, {})->extract(frame.gray);
   return DetectorBank(options).detect(frame, edges);
 }
 

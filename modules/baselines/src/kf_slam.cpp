@@ -26,7 +26,7 @@ struct KfSlam::Impl {
       : tracker(std::make_shared<CameraTracker>(options.motion)),
         mounting(options.motion, tracker),
         motion(options.motion, tracker),
-        backend(makeEdgeLineBackend("opencv", options.edges)),
+        backend(makeEdgeLineBackend(kDefaultBackend, options.edges)),
         detectors(options.detectors),
         filter(options.kf) {}
 

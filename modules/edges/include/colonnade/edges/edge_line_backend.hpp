@@ -47,6 +47,9 @@ class EdgeLineBackend {
   virtual EdgeLines process(const cv::Mat& gray, const EdgeView& view) = 0;
 };
 
+/// What runs unless another is asked for.
+inline constexpr const char* kDefaultBackend = "fixed";
+
 /// Throws Error (kUsage) for a backend this program was not built with.
 std::unique_ptr<EdgeLineBackend> makeEdgeLineBackend(const std::string& name,
                                                      const EdgeOptions& options);
