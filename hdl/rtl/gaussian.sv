@@ -26,18 +26,19 @@ module gaussian #(
   );
 
   logic [PPC*9-1:0] outer_q, inner_q;
-  logic [PPC*11-1:0] middle_q;
-  logic [PPC*12-1:0] sums_q;
+  logic [PPC*11-1:0] middle_q, middle_d1_q;
+  logic [PPC*12-1:0] both_q, sums_q;
   always_ff @(posedge clk_i) begin
     for (int p = 0; p < PPC; p++) begin
       outer_q[p*9 +: 9] <= {1'b0, columns[p*40 +: 8]} + {1'b0, columns[p*40+32 +: 8]};
       inner_q[p*9 +: 9] <= {1'b0, columns[p*40+8 +: 8]} + {1'b0, columns[p*40+24 +: 8]};
       middle_q[p*11 +: 11] <= {1'b0, columns[p*40+16 +: 8], 2'b00} + {2'b00, columns[p*40+16 +: 8], 1'b0};
-      sums_q[p*12 +: 12] <= {3'b000, outer_q[p*9 +: 9]} + {1'b0, inner_q[p*9 +: 9], 2'b00} +
-                            {1'b0, middle_q[p*11 +: 11]};
+      both_q[p*12 +: 12] <= {3'b000, outer_q[p*9 +: 9]} + {1'b0, inner_q[p*9 +: 9], 2'b00};
+      middle_d1_q[p*11 +: 11] <= middle_q[p*11 +: 11];
+      sums_q[p*12 +: 12] <= both_q[p*12 +: 12] + {1'b0, middle_d1_q[p*11 +: 11]};
     end
   end
-  delay #(.STAGES(2)) u_sum_delay (
+  delay #(.STAGES(3)) u_sum_delay (
     .clk_i(clk_i), .rst_i(rst_i), .valid_i(column_valid), .position_i(column_position),
     .valid_o(sum_valid), .position_o(sum_position)
   );
@@ -50,20 +51,21 @@ module gaussian #(
 
   logic [PPC*13-1:0] across_q, beside_q;
   logic [PPC*15-1:0] centre_q;
-  logic [PPC*16-1:0] total_q;
+  logic [PPC*16-1:0] around_q, rounded_q, total_q;
   always_ff @(posedge clk_i) begin
     for (int p = 0; p < PPC; p++) begin
       across_q[p*13 +: 13] <= {1'b0, window[p*12 +: 12]} + {1'b0, window[(p+4)*12 +: 12]};
       beside_q[p*13 +: 13] <= {1'b0, window[(p+1)*12 +: 12]} + {1'b0, window[(p+3)*12 +: 12]};
       centre_q[p*15 +: 15] <= {1'b0, window[(p+2)*12 +: 12], 2'b00} + {2'b00, window[(p+2)*12 +: 12], 1'b0};
-      total_q[p*16 +: 16] <= {3'b000, across_q[p*13 +: 13]} + {1'b0, beside_q[p*13 +: 13], 2'b00} +
-                             {1'b0, centre_q[p*15 +: 15]} + 16'd128;
+      around_q[p*16 +: 16] <= {3'b000, across_q[p*13 +: 13]} + {1'b0, beside_q[p*13 +: 13], 2'b00};
+      rounded_q[p*16 +: 16] <= {1'b0, centre_q[p*15 +: 15]} + 16'd128;
+      total_q[p*16 +: 16] <= around_q[p*16 +: 16] + rounded_q[p*16 +: 16];
     end
   end
   always_comb begin
     for (int p = 0; p < PPC; p++) pixels_o[p*8 +: 8] = total_q[p*16+8 +: 8];
   end
-  delay #(.STAGES(2)) u_delay (
+  delay #(.STAGES(3)) u_delay (
     .clk_i(clk_i), .rst_i(rst_i), .valid_i(window_valid), .position_i(window_position),
     .valid_o(valid_o), .position_o(position_o)
   );

@@ -36,7 +36,7 @@ module gradient #(
       .right_i(window[(p+2)*24 +: 24]), .gradient_o(gradients_o[p*13 +: 13])
     );
   end
-  delay #(.STAGES(5)) u_delay (
+  delay #(.STAGES(6)) u_delay (
     .clk_i(clk_i), .rst_i(rst_i), .valid_i(window_valid), .position_i(window_position),
     .valid_o(valid_o), .position_o(position_o)
   );

@@ -40,15 +40,16 @@ module hough_parallel #(
   logic valid_q, row_counts_q;
   stream_pkg::position_t position_q;
   logic [PPC*4-1:0] edges_q;
-  logic [15:0] row_q, row;
-  assign row = position_i.first_row ? 16'd0 : row_q;
+  localparam int ROW_WIDTH = $clog2(HEIGHT + 1);
+  logic [ROW_WIDTH-1:0] row_q, row;
+  assign row = position_i.first_row ? '0 : row_q;
   logic [15:0] first_row;
   assign first_row = position_i.bank ? parameters1_i.first_row : parameters0_i.first_row;
   always_ff @(posedge clk_i) begin
     valid_q <= valid_i & position_i.active & ~rst_i;
     position_q <= position_i;
     edges_q <= edges_i;
-    row_counts_q <= row >= first_row;
+    row_counts_q <= (first_row >> ROW_WIDTH) == '0 && row >= first_row[ROW_WIDTH-1:0];
     if (valid_i && position_i.active) row_q <= position_i.last_word ? row + 1'b1 : row;
   end
 

@@ -21,9 +21,9 @@ module hysteresis #(
 
   // The labels of the former line, and the results of the line before it: read together, word by
   // word, and each overwritten by the next line once read.
-  (* ram_style = "block" *)
+  (* ram_style = "block", no_rw_check *)
   logic [PPC*5-1:0] labels_memory [WORDS];
-  (* ram_style = "block" *)
+  (* ram_style = "block", no_rw_check *)
   logic [PPC-1:0] results_memory [WORDS];
   logic [ADDRESS_WIDTH-1:0] address_q, address_d1_q, result_address_q;
   logic [PPC*5-1:0] here, below_q;

@@ -26,7 +26,7 @@ module line_taps #(
   localparam int ADDRESS_WIDTH = $clog2(WORDS);
 
   // Line k back is in slice k - 1.
-  (* ram_style = "block" *)
+  (* ram_style = "block", no_rw_check *)
   logic [(ROWS-1)*WORD_WIDTH-1:0] memory [WORDS];
   logic [(ROWS-1)*WORD_WIDTH-1:0] older_q;
   logic [ADDRESS_WIDTH-1:0] address_q, address_d1_q;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 `default_nettype none
 
-/// The operators of one pixel: columns of three rows (upper row lowest) in, {sector, magnitude} five
+/// The operators of one pixel: columns of three rows (upper row lowest) in, {sector, magnitude} six
 /// clocks later.
 module operators (
   input  wire         clk_i,
@@ -14,27 +14,32 @@ module operators (
   output logic [12:0] gradient_o
 );
   // Nine pixels: a b c over d e f over g h i.
-  logic [9:0] a, b, c, d, f, g, h, i;
-  assign {g, d, a} = {2'b00, left_i[23:16], 2'b00, left_i[15:8], 2'b00, left_i[7:0]};
-  assign {h, b} = {2'b00, middle_i[23:16], 2'b00, middle_i[7:0]};
-  assign {i, f, c} = {2'b00, right_i[23:16], 2'b00, right_i[15:8], 2'b00, right_i[7:0]};
+  logic [8:0] a, b, c, d, f, g, h, i;
+  assign {g, d, a} = {1'b0, left_i[23:16], 1'b0, left_i[15:8], 1'b0, left_i[7:0]};
+  assign {h, b} = {1'b0, middle_i[23:16], 1'b0, middle_i[7:0]};
+  assign {i, f, c} = {1'b0, right_i[23:16], 1'b0, right_i[15:8], 1'b0, right_i[7:0]};
 
-  // By direction: 0 along u, 1 along u+v, 2 along v, 3 along v-u.
-  logic [39:0] more_q, less_q;
+  // By direction: 0 along u, 1 along u+v, 2 along v, 3 along v-u. Directions 0 and 1 share
+  // (f + i) - (a + d) and differ by c - g or h - b; 2 and 3 share (g + h) - (b + c) and differ by
+  // i - a or d - f.
+  logic [8:0] fi_q, ad_q, gh_q, bc_q;
+  logic [35:0] single_q, single_d1_q;
+  logic [9:0] shared01_q, shared23_q;
   logic [43:0] difference_q;
   logic [39:0] size_q;
   logic [3:0] negative_q, negative_d1_q;
   always_ff @(posedge clk_i) begin
-    more_q[0 +: 10] <= c + f + i;
-    less_q[0 +: 10] <= a + d + g;
-    more_q[10 +: 10] <= f + h + i;
-    less_q[10 +: 10] <= a + b + d;
-    more_q[20 +: 10] <= g + h + i;
-    less_q[20 +: 10] <= a + b + c;
-    more_q[30 +: 10] <= d + g + h;
-    less_q[30 +: 10] <= b + c + f;
+    fi_q <= f + i;
+    ad_q <= a + d;
+    gh_q <= g + h;
+    bc_q <= b + c;
+    single_q <= {d - f, i - a, h - b, c - g};
+    shared01_q <= {1'b0, fi_q} - {1'b0, ad_q};
+    shared23_q <= {1'b0, gh_q} - {1'b0, bc_q};
+    single_d1_q <= single_q;
     for (int k = 0; k < 4; k++) begin
-      difference_q[k*11 +: 11] <= {1'b0, more_q[k*10 +: 10]} - {1'b0, less_q[k*10 +: 10]};
+      difference_q[k*11 +: 11] <= (k < 2 ? {shared01_q[9], shared01_q} : {shared23_q[9], shared23_q}) +
+                                  {{2{single_d1_q[k*9+8]}}, single_d1_q[k*9 +: 9]};
       size_q[k*10 +: 10] <= difference_q[k*11+10] ? 10'd0 - difference_q[k*11 +: 10]
                                                   : difference_q[k*11 +: 10];
       negative_q[k] <= difference_q[k*11+10];

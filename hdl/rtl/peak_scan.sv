@@ -96,9 +96,10 @@ module peak_scan #(
 
   // Each pair of bins is compared once, when the newer one arrives; a bin's chances go along with it
   // until it is in slice 2.
-  logic [VOTE_WIDTH:0] vertical_least, inclined_least;
-  assign vertical_least = {(vertical_votes_i >> VOTE_WIDTH) != '0, vertical_votes_i[VOTE_WIDTH-1:0]};
-  assign inclined_least = {(inclined_votes_i >> VOTE_WIDTH) != '0, inclined_votes_i[VOTE_WIDTH-1:0]};
+  // What does not fit is all ones, which is more votes than there can be.
+  logic [VOTE_WIDTH-1:0] vertical_least, inclined_least;
+  assign vertical_least = vertical_votes_i[VOTE_WIDTH-1:0] | {VOTE_WIDTH{(vertical_votes_i >> VOTE_WIDTH) != '0}};
+  assign inclined_least = inclined_votes_i[VOTE_WIDTH-1:0] | {VOTE_WIDTH{(inclined_votes_i >> VOTE_WIDTH) != '0}};
   logic [ANGLES-1:0] own, against_former, against_later;
   for (genvar a = 0; a < ANGLES; a++) begin : g_angle
     localparam int THETA = 32'(ANGLE_SET[a*8 +: 8]);
@@ -137,10 +138,9 @@ module peak_scan #(
       assign against_later[a] = 1'b1;
       assign against_former[(a+1)%ANGLES] = 1'b1;
     end
-    logic [VOTE_WIDTH:0] least_q;  // the highest bit: more than there can be
+    logic [VOTE_WIDTH-1:0] least_q;
     always_ff @(posedge clk_i) least_q <= vertical_i[a] ? vertical_least : inclined_least;
-    assign hits[a] = own[a] && against_former[a] && against_later[a] && !least_q[VOTE_WIDTH] &&
-                     bin2 >= least_q[VOTE_WIDTH-1:0];
+    assign hits[a] = own[a] && against_former[a] && against_later[a] && bin2 >= least_q;
   end
 
   // Lines of one bin leave one by one, the first angle first; their votes have moved on to slice 3.
@@ -149,7 +149,22 @@ module peak_scan #(
   assign lowest = hits_q & (~hits_q + 1'b1);
   assign others = hits_q & ~lowest;
   assign line_valid_o = hits_q != '0;
-  assign advance_o = hits_q == '0 || (line_ready_i && others == '0);
+  // Whether more than one is left holds up everything: found by fours, not by the chain of `others`.
+  localparam int FOURS = (ANGLES + 3) / 4;
+  logic [FOURS*4-1:0] padded;
+  logic several, any;
+  assign padded = (FOURS*4)'(hits_q);
+  always_comb begin
+    several = 1'b0;
+    any = 1'b0;
+    for (int k = 0; k < FOURS; k++) begin
+      several = several | (any & (padded[k*4 +: 4] != 4'd0)) |
+                (padded[k*4] & padded[k*4+1]) | (padded[k*4+2] & padded[k*4+3]) |
+                ((padded[k*4] | padded[k*4+1]) & (padded[k*4+2] | padded[k*4+3]));
+      any = any | (padded[k*4 +: 4] != 4'd0);
+    end
+  end
+  assign advance_o = hits_q == '0 || (line_ready_i && !several);
   always_ff @(posedge clk_i) begin
     if (rst_i) hits_q <= '0;
     else if (advance_o) hits_q <= (state_q == Scan && step_q >= STEP_WIDTH'(4) && !last_step) ? hits : '0;
@@ -157,10 +172,10 @@ module peak_scan #(
     if (advance_o) hit_rho_q <= 12'(step_q) - 12'(REACH + 4);
   end
   always_comb begin
-    line_o = '0;
+    line_o = {9'd0, hit_rho_q, 11'd0};
     for (int a = 0; a < ANGLES; a++)
       if (lowest[a])
-        line_o = line_o | {~vertical_i[a], 8'(ANGLE_SET[a*8 +: 8] - 8'd90), hit_rho_q,
+        line_o = line_o | {~vertical_i[a], 8'(ANGLE_SET[a*8 +: 8] - 8'd90), 12'd0,
                            11'(window[(a*4+3)*VOTE_WIDTH +: VOTE_WIDTH])};
   end
 endmodule

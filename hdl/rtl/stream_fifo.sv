@@ -19,7 +19,7 @@ module stream_fifo #(
   output logic [WIDTH-1:0] data_o
 );
   localparam int POINTER_WIDTH = $clog2(DEPTH);
-  (* ram_style = "block" *)
+  (* ram_style = "block", no_rw_check *)
   logic [WIDTH-1:0] memory [DEPTH];
   logic [POINTER_WIDTH-1:0] read_q, write_q;
   logic [POINTER_WIDTH:0] count_q;

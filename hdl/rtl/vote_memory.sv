@@ -20,9 +20,9 @@ module vote_memory #(
   output logic [VOTE_WIDTH-1:0]    scan_votes_o     // one clock after scan_i, held until the next
 );
   /* verilator no_inline_module */  // one class for all of them: models compile faster
-  (* ram_style = "block" *)
+  (* ram_style = "block", no_rw_check *)
   logic [VOTE_WIDTH-1:0] memory0 [DEPTH];
-  (* ram_style = "block" *)
+  (* ram_style = "block", no_rw_check *)
   logic [VOTE_WIDTH-1:0] memory1 [DEPTH];
   logic [VOTE_WIDTH-1:0] read0_q, read1_q;
 
