@@ -116,7 +116,7 @@ TEST_F(FrontEnd, MatchesThatOnlyFitAloneAreRefusedTogether) {
   b.measurement.z(0) -= radians(10.0);
   const auto association = associator_.match({a, b}, filter_, book_);
   EXPECT_EQ(1u, association.matches.size());
-  EXPECT_EQ(1u, association.refused_jointly);
+  EXPECT_EQ(1u, association.refused.at("joint test"));
   // Shifted the same way they fit.
   b.measurement.z(0) += radians(20.0);
   EXPECT_EQ(2u, associator_.match({a, b}, filter_, book_).matches.size());

@@ -102,6 +102,11 @@ std::optional<double> EkfSlam::jointDistance2(std::span<const Match> matches) co
   return mahalanobis2(s.nu, innovationCovariance(state_, s));
 }
 
+EkfSlam::JointInnovation EkfSlam::jointInnovation(std::span<const Match> matches) const {
+  const Stack s = stack(state_, matches);
+  return {s.nu, innovationCovariance(state_, s), s.R};
+}
+
 std::vector<bool> EkfSlam::update(std::span<const Match> matches, double noise_scale) {
   std::vector<bool> used(matches.size(), false);
   std::vector<Match> accepted;

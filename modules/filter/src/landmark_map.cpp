@@ -58,7 +58,7 @@ void fillLine(const State& state, const Block& block, LandmarkRecord& record) {
 LandmarkMap EkfSlam::landmarkMap() const {
   LandmarkMap map;
   for (const Block& block : state_.blocks) {
-    if (!block.isLandmark() || !isSettledEnough(state_, block)) continue;
+    if (!block.isLandmark() || block.evidence.hypothesis || !isSettledEnough(state_, block)) continue;
     LandmarkRecord record;
     record.id = block.id;
     record.kind = block.landmark_kind;

@@ -5,16 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "association/pairing.hpp"
 #include "colonnade/filter/gate.hpp"
 
 namespace colonnade {
 namespace {
-
-struct Pairing {
-  std::size_t detection;
-  LandmarkId landmark;
-  double distance2;
-};
 
 /// How far the seen part of a floor edge lies from the part known so far, along the line.
 double gapAlong(const Block& block, const EkfSlam& filter, const Detection& detection) {
@@ -28,10 +23,76 @@ double gapAlong(const Block& block, const EkfSlam& filter, const Detection& dete
                   block.evidence.along_min_m - std::max(a, b));
 }
 
-int degreesOfFreedom(const std::vector<Match>& matches) {
-  Eigen::Index sum = 0;
-  for (const Match& match : matches) sum += match.measurement.z.size();
-  return static_cast<int>(sum);
+double gateProbability(LandmarkKind kind, const AssociationOptions& options) {
+  switch (kind) {
+    case LandmarkKind::kPillarEdge:
+      return options.pillar_probability;
+    case LandmarkKind::kFloorEdge:
+      return options.floor_edge_probability;
+    case LandmarkKind::kDepthSlope:
+      return options.depth_slope_probability;
+  }
+  return 0.0;
+}
+
+/// What lies around one detection.
+struct Nearby {
+  std::vector<Pairing> pairings;
+  bool near = false;    ///< a landmark so near that it may be it
+  bool unlike = false;  ///< within the gate of one, kept from it by its looks
+};
+
+Nearby lookAround(std::size_t index, const Detection& detection, const EkfSlam& filter,
+                  const LandmarkBook& book, const AssociationOptions& options) {
+  Nearby nearby;
+  for (const Block& block : filter.state().blocks) {
+    if (!block.isLandmark() || block.evidence.hypothesis ||
+        block.landmark_kind != detection.kind() || !book.looksLike(block.id, detection))
+      continue;
+    if (block.block_kind == BlockKind::kFloorLine &&
+        gapAlong(block, filter, detection) > options.floor_edge_gap_m)
+      continue;
+    const auto innovation = filter.innovation(block.id, detection.measurement);
+    if (!innovation) continue;
+    const auto numbers = static_cast<int>(innovation->nu.size());
+    const double gate = chiSquareQuantile(gateProbability(detection.kind(), options), numbers);
+    if (innovation->distance2 < options.near_factor * options.near_factor * gate)
+      nearby.near = true;
+    if (!innovation->within_gate || innovation->distance2 > gate) continue;
+    double looks = 0.0;
+    if (const LandmarkLooks* former = book.looks(block.id);
+        former && options.looks_probability < 1.0) {
+      const auto difference =
+          former->difference(detection, options.colour_sigma, options.width_sigma);
+      looks = difference.distance2;
+      if (difference.numbers > 0 &&
+          looks > chiSquareQuantile(options.looks_probability, difference.numbers)) {
+        nearby.unlike = true;
+        continue;
+      }
+    }
+    nearby.pairings.push_back(
+        {index, block.id, innovation->distance2, innovation->distance2 + looks});
+  }
+  return nearby;
+}
+
+JointPairings join(std::vector<Pairing> pairings, const Detections& detections,
+                   const EkfSlam& filter) {
+  std::vector<Match> matches;
+  JointPairings joint;
+  Eigen::Index row = 0;
+  for (const Pairing& pairing : pairings) {
+    matches.push_back({pairing.landmark, detections[pairing.detection].measurement});
+    joint.first.push_back(row);
+    joint.size.push_back(matches.back().measurement.z.size());
+    row += joint.size.back();
+  }
+  auto innovation = filter.jointInnovation(matches);
+  joint.pairings = std::move(pairings);
+  joint.nu = std::move(innovation.nu);
+  joint.S = std::move(innovation.S);
+  return joint;
 }
 
 }  // namespace
@@ -42,48 +103,50 @@ Association Associator::match(const Detections& detections, const EkfSlam& filte
   result.near_landmark.assign(detections.size(), false);
   std::vector<Pairing> pairings;
   for (std::size_t d = 0; d < detections.size(); ++d) {
-    const Detection& detection = detections[d];
-    if (!detection.accepted()) continue;
-    for (const Block& block : filter.state().blocks) {
-      if (!block.isLandmark() || block.landmark_kind != detection.kind() ||
-          !book.looksLike(block.id, detection))
-        continue;
-      if (block.block_kind == BlockKind::kFloorLine &&
-          gapAlong(block, filter, detection) > options_.floor_edge_gap_m)
-        continue;
-      const auto innovation = filter.innovation(block.id, detection.measurement);
-      if (!innovation) continue;
-      const double gate = chiSquareQuantile(filter.options().gate_probability,
-                                            static_cast<int>(innovation->nu.size()));
-      if (innovation->distance2 < options_.near_factor * options_.near_factor * gate)
-        result.near_landmark[d] = true;
-      if (innovation->within_gate) pairings.push_back({d, block.id, innovation->distance2});
-    }
+    if (!detections[d].accepted()) continue;
+    const Nearby nearby = lookAround(d, detections[d], filter, book, options_);
+    result.near_landmark[d] = nearby.near;
+    pairings.insert(pairings.end(), nearby.pairings.begin(), nearby.pairings.end());
+    if (nearby.pairings.empty() && nearby.unlike) ++result.refused["looks unlike the landmark"];
+    if (nearby.pairings.empty() && nearby.near && !nearby.unlike)
+      ++result.refused["near a landmark, outside its gate"];
   }
-  std::stable_sort(pairings.begin(), pairings.end(),
-                   [](const auto& a, const auto& b) { return a.distance2 < b.distance2; });
+  if (pairings.empty()) return result;
 
-  std::vector<bool> detection_used(detections.size(), false);
-  std::vector<LandmarkId> landmarks_used;
-  for (const Pairing& pairing : pairings) {
-    if (detection_used[pairing.detection] || std::find(landmarks_used.begin(), landmarks_used.end(),
-                                                       pairing.landmark) != landmarks_used.end())
-      continue;
-    detection_used[pairing.detection] = true;
-    landmarks_used.push_back(pairing.landmark);
+  const JointPairings joint = join(std::move(pairings), detections, filter);
+  const std::vector<std::size_t> nearest = nearestPairings(joint.pairings);
+  std::vector<std::size_t> chosen = nearest;
+  const bool many = options_.consensus_matches > 0 &&
+                    nearest.size() >= static_cast<std::size_t>(options_.consensus_matches);
+  if (many)
+    chosen = consensusPairings(joint, options_.joint_probability);
+  else if (options_.method == "jcbb")
+    chosen = jointPairings(joint, options_.joint_probability, options_.joint_nodes);
+  // jcbb's set passes already; of any other the dearest is dropped until the rest passes.
+  const auto cost = [&](std::size_t i) { return joint.pairings[i].cost; };
+  std::stable_sort(chosen.begin(), chosen.end(),
+                   [&](std::size_t a, std::size_t b) { return cost(a) < cost(b); });
+  while (chosen.size() > 1 &&
+         jointDistance2(joint, chosen) >
+             chiSquareQuantile(options_.joint_probability, degreesOfFreedom(joint, chosen)))
+    chosen.pop_back();
+
+  std::vector<bool> matched(detections.size(), false);
+  for (const std::size_t i : chosen) {
+    const Pairing& pairing = joint.pairings[i];
+    matched[pairing.detection] = true;
     result.matches.push_back({pairing.landmark, detections[pairing.detection].measurement});
     result.detection_of_match.push_back(pairing.detection);
   }
-
-  // The matches stand in the order of their distance, so the last one is the worst.
-  while (result.matches.size() > 1) {
-    const auto joint = filter.jointDistance2(result.matches);
-    if (joint &&
-        *joint <= chiSquareQuantile(options_.joint_probability, degreesOfFreedom(result.matches)))
-      break;
-    result.matches.pop_back();
-    result.detection_of_match.pop_back();
-    ++result.refused_jointly;
+  std::vector<bool> counted = matched;
+  for (const std::size_t i : nearest) {
+    const std::size_t d = joint.pairings[i].detection;
+    if (!matched[d]) ++result.refused[many ? "one-point consensus" : "joint test"];
+    counted[d] = true;
+  }
+  for (const Pairing& pairing : joint.pairings) {
+    if (!counted[pairing.detection]) ++result.refused["another detection is nearer"];
+    counted[pairing.detection] = true;
   }
   return result;
 }

@@ -40,31 +40,24 @@ void Initializer::step(const Frame& frame, const Detections& detections,
   std::vector<bool> known = association.near_landmark;
   for (const std::size_t d : association.detection_of_match) known[d] = true;
   for (Candidate& candidate : candidates_) ++candidate.unseen;
-  for (BearingCandidate& candidate : bearings_) {
-    ++candidate.unseen;
-    ++candidate.age;
-  }
 
-  std::optional<LandmarkId> clone;  // one for all bearings first seen in this frame
+  std::vector<Detection> unknown_bearings;
   for (std::size_t d = 0; d < detections.size(); ++d) {
     const Detection& detection = detections[d];
     if (known[d] || !detection.accepted()) continue;
-    if (detection.measurement.hasRange()) {
-      if (!stepCandidate(detection, filter))
-        candidates_.push_back({detection, keyOf(detection, filter.pose())});
-    } else if (!stepBearing(detection, filter) &&
-               static_cast<int>(bearings_.size()) < options_.max_bearing_candidates) {
-      if (!clone) clone = filter.addPoseClone();
-      bearings_.push_back({*clone, detection.measurement, detection, filter.pose()});
-    }
+    if (!detection.measurement.hasRange())
+      unknown_bearings.push_back(detection);
+    else if (!recognise(detection, filter))
+      candidates_.push_back({detection, keyOf(detection, filter.pose())});
   }
   found(frame, filter, book, events);
-  foundFromBearings(frame, filter, book, events);
-  dropStale(filter);
+  foundFromBearings(frame, unknown_bearings, filter, book, events);
+  std::erase_if(candidates_, [&](const auto& c) { return c.unseen > options_.patience_frames; });
   endProbation(frame, filter, book, events);
+  former_stamp_s_ = frame.stamp_s;
 }
 
-bool Initializer::stepCandidate(const Detection& detection, const EkfSlam& filter) {
+bool Initializer::recognise(const Detection& detection, const EkfSlam& filter) {
   const Eigen::Vector3d key = keyOf(detection, filter.pose());
   for (Candidate& candidate : candidates_) {
     if (candidate.unseen == 0 || candidate.last.kind() != detection.kind() ||
@@ -73,23 +66,6 @@ bool Initializer::stepCandidate(const Detection& detection, const EkfSlam& filte
       continue;
     candidate.last = detection;
     candidate.key = key;
-    candidate.unseen = 0;
-    ++candidate.sightings;
-    return true;
-  }
-  return false;
-}
-
-bool Initializer::stepBearing(const Detection& detection, const EkfSlam& filter) {
-  for (BearingCandidate& candidate : bearings_) {
-    const double turn = wrapAngle(filter.pose().phi - candidate.T_world_robot_last.phi);
-    const double moved =
-        wrapAngle(detection.measurement.z(0) + turn - candidate.last.measurement.z(0));
-    if (candidate.unseen == 0 || std::abs(moved) > options_.same_bearing * candidate.unseen ||
-        candidate.last.appearance.gradient_sign != detection.appearance.gradient_sign)
-      continue;
-    candidate.last = detection;
-    candidate.T_world_robot_last = filter.pose();
     candidate.unseen = 0;
     ++candidate.sightings;
     return true;
@@ -110,45 +86,21 @@ void Initializer::found(const Frame& frame, EkfSlam& filter, LandmarkBook& book,
   });
 }
 
-void Initializer::foundFromBearings(const Frame& frame, EkfSlam& filter, LandmarkBook& book,
+void Initializer::foundFromBearings(const Frame& frame, const std::vector<Detection>& unknown,
+                                    EkfSlam& filter, LandmarkBook& book,
                                     std::vector<Event>& events) {
-  std::vector<LandmarkId> released;
-  std::erase_if(bearings_, [&](const BearingCandidate& candidate) {
-    if (candidate.unseen > 0 || candidate.sightings < options_.bearing_sightings) return false;
-    const auto seen = filter.parallax(candidate.clone, candidate.first, candidate.last.measurement);
-    if (!seen || seen->baseline_m < options_.min_baseline_m ||
-        std::abs(seen->angle) < options_.min_parallax)
-      return false;
-    released.push_back(candidate.clone);
-    // A ray that does not meet the first one in front of both cameras was no landmark.
-    if (seen->inverse_depth < 2.0 * seen->inverse_depth_sigma) return true;
-    if (const auto id =
-            filter.addLandmark(candidate.clone, candidate.first, candidate.last.measurement)) {
-      book.observe(*id, candidate.last, frame.stamp_s, filter);
-      unseen_.emplace_back(*id, 0);
-      events.push_back({frame.stamp_s, frame.index, "birth", id, "pillar by parallax"});
-    }
-    return true;
-  });
-  for (const LandmarkId clone : released) releaseClone(clone, filter);
-}
-
-void Initializer::dropStale(EkfSlam& filter) {
-  std::erase_if(candidates_, [&](const auto& c) { return c.unseen > options_.patience_frames; });
-  const auto isStale = [&](const BearingCandidate& c) {
-    return c.unseen > options_.patience_frames || c.age > options_.bearing_lifetime_frames;
-  };
-  std::vector<LandmarkId> released;
-  for (const BearingCandidate& candidate : bearings_)
-    if (isStale(candidate)) released.push_back(candidate.clone);
-  std::erase_if(bearings_, isStale);
-  for (const LandmarkId clone : released) releaseClone(clone, filter);
-}
-
-void Initializer::releaseClone(LandmarkId clone, EkfSlam& filter) {
-  const bool needed = std::any_of(bearings_.begin(), bearings_.end(),
-                                  [&](const auto& c) { return c.clone == clone; });
-  if (!needed) filter.remove(clone);
+  const double interval_s = frame.stamp_s - former_stamp_s_.value_or(-HUGE_VAL);
+  const double noise_scale = correlatedNoiseScale(interval_s, filter.options().error_correlation_s);
+  const auto step = bearings_.step(unknown, noise_scale, filter);
+  for (const auto& founded : step.founded) {
+    book.observe(founded.landmark, founded.detection, frame.stamp_s, filter);
+    unseen_.emplace_back(founded.landmark, 0);
+    events.push_back({frame.stamp_s, frame.index, "birth", founded.landmark,
+                      std::string(name(founded.detection.kind())) + " by " + options_.policy +
+                          " after " + std::to_string(founded.age) + " frames"});
+  }
+  for (const std::string& reason : step.rejected)
+    events.push_back({frame.stamp_s, frame.index, "candidate rejected", std::nullopt, reason});
 }
 
 void Initializer::endProbation(const Frame& frame, EkfSlam& filter, LandmarkBook& book,

@@ -34,7 +34,7 @@ void LandmarkBook::observe(LandmarkId landmark, const Detection& detection, doub
   if (evidence.observations == 0) evidence.first_stamp_s = stamp_s;
   evidence.last_stamp_s = stamp_s;
   ++evidence.observations;
-  pages_[landmark].gradient_balance += detection.appearance.gradient_sign;
+  pages_[landmark].looks.observe(detection);
 }
 
 void LandmarkBook::observePair(LandmarkId a, LandmarkId b) {
@@ -50,7 +50,12 @@ void LandmarkBook::forget(LandmarkId landmark) {
 bool LandmarkBook::looksLike(LandmarkId landmark, const Detection& detection) const {
   const auto page = pages_.find(landmark);
   if (page == pages_.end() || detection.kind() != LandmarkKind::kPillarEdge) return true;
-  return page->second.gradient_balance * detection.appearance.gradient_sign >= 0;
+  return page->second.looks.sameDarkSide(detection);
+}
+
+const LandmarkLooks* LandmarkBook::looks(LandmarkId landmark) const {
+  const auto page = pages_.find(landmark);
+  return page == pages_.end() ? nullptr : &page->second.looks;
 }
 
 std::optional<LandmarkId> LandmarkBook::bestPartner(LandmarkId landmark) const {

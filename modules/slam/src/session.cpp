@@ -28,8 +28,8 @@ void book(const Frame& frame, const StepReport& report, const std::vector<bool>&
         other != landmark_of_detection.end())
       landmarks.observePair(id, other->second);
   }
-  for (std::size_t i = 0; i < report.association.refused_jointly; ++i)
-    filter.health().refuse("joint test");
+  for (const auto& [reason, count] : report.association.refused)
+    for (std::size_t i = 0; i < count; ++i) filter.health().refuse(reason);
   for (const Detection& detection : report.detections)
     if (!detection.accepted()) filter.health().refuse(detection.refusal);
 }

@@ -50,6 +50,15 @@ class EkfSlam {
   /// The squared Mahalanobis distance of all matches together; nothing when S is singular.
   std::optional<double> jointDistance2(std::span<const Match> matches) const;
 
+  /// The innovations of several pairings, stacked, with their covariance S = H P H^T + R. A landmark
+  /// and a measurement may stand in several of them. All landmarks must be known.
+  struct JointInnovation {
+    Eigen::VectorXd nu;
+    Eigen::MatrixXd S;
+    Eigen::MatrixXd R;
+  };
+  JointInnovation jointInnovation(std::span<const Match> matches) const;
+
   /// One joint correction with all matches that are finite and within their gate; the others are
   /// counted. Returns which were used, one flag per match. `noise_scale` widens R for the
   /// correction but not for the gate: what a measurement is worth, beside how far it may lie off.
@@ -72,6 +81,10 @@ class EkfSlam {
   /// A new inverse-depth landmark from a bearing at the clone and one of now.
   std::optional<LandmarkId> addLandmark(LandmarkId clone, const Measurement& first,
                                         const Measurement& now);
+  /// A new inverse-depth landmark on the ray of a bearing at the clone, its inverse depth (1/m)
+  /// known otherwise. Nothing when not finite.
+  std::optional<LandmarkId> addLandmarkOnRay(LandmarkId clone, const Measurement& bearing,
+                                             double inverse_depth, double inverse_depth_sigma);
   void remove(LandmarkId block);
 
   /// Turns inverse-depth blocks whose linearity index allows into points; returns which.

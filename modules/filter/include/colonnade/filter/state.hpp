@@ -14,6 +14,8 @@ namespace colonnade {
 /// What has been seen of a landmark, beside its place in the state.
 struct Evidence {
   int observations = 0;
+  /// One of several places a landmark may have: nothing matches it and no map shows it.
+  bool hypothesis = false;
   double first_stamp_s = 0.0;
   double last_stamp_s = 0.0;
   /// Floor edges: the seen part, metres along the line from the foot of the anchor, in the

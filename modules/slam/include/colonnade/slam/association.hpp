@@ -2,30 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <optional>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "colonnade/detectors/detection.hpp"
 #include "colonnade/filter/ekf_slam.hpp"
+#include "colonnade/slam/association_options.hpp"
 #include "colonnade/slam/landmark_book.hpp"
 
 namespace colonnade {
-
-struct AssociationOptions {
-  static constexpr const char* kSection = "Association";
-  double joint_probability = 0.99;
-  double near_factor = 2.0;
-  double floor_edge_gap_m = 1.5;
-
-  void visit(OptionVisitor& v) {
-    v.number("joint_probability", joint_probability, {0.5, 0.999999},
-             "share of right joint hypotheses the joint chi-square test lets through");
-    v.number("near_factor", near_factor, {1, 100},
-             "a detection within this many times the gate of a landmark founds no new one");
-    v.number("floor_edge_gap_m", floor_edge_gap_m, {0, 20},
-             "between the seen parts of one floor edge");
-  }
-};
 
 /// Which detections are which landmarks, in one frame.
 struct Association {
@@ -33,12 +19,13 @@ struct Association {
   std::vector<std::size_t> detection_of_match;  ///< index into the frame's detections
   /// Unmatched detections so near to a landmark that they may be it: they found nothing new.
   std::vector<bool> near_landmark;
-  std::size_t refused_jointly = 0;
+  /// Detections that lie near a landmark and were not matched, by reason.
+  std::map<std::string, std::size_t> refused;
 };
 
-/// Nearest neighbours under per-kind chi-square gates, each landmark and each detection used once,
-/// then a test of all matches together: while their joint Mahalanobis distance is beyond the
-/// chi-square bound of its degrees of freedom, the worst single one is dropped.
+/// Pairs within the chi-square gate of their kind that look alike; of those the nearest or, with
+/// jcbb, the largest set that passes the chi-square test of all its numbers together, each landmark
+/// and each detection used once. Where a frame holds many, one-point RANSAC may choose instead.
 class Associator {
  public:
   explicit Associator(const AssociationOptions& options) : options_(options) {}

@@ -6,6 +6,7 @@
 
 #include "colonnade/detectors/detection.hpp"
 #include "colonnade/filter/ekf_slam.hpp"
+#include "colonnade/slam/landmark_looks.hpp"
 
 namespace colonnade {
 
@@ -21,13 +22,16 @@ class LandmarkBook {
   /// Whether a detection can be this landmark by its looks: a vertical edge keeps its dark side.
   bool looksLike(LandmarkId landmark, const Detection& detection) const;
 
+  /// nullptr for a landmark never observed.
+  const LandmarkLooks* looks(LandmarkId landmark) const;
+
   /// Fills pair_id where two edges are each other's most frequent partner, seen together three
   /// times or more.
   void fillPairs(LandmarkMap& map) const;
 
  private:
   struct Page {
-    int gradient_balance = 0;  ///< sightings with the brighter side on the right minus the others
+    LandmarkLooks looks;
     std::map<LandmarkId, int> partners;
   };
   std::optional<LandmarkId> bestPartner(LandmarkId landmark) const;

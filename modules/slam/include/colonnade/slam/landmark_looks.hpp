@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "colonnade/detectors/detection.hpp"
+
+namespace colonnade {
+
+/// How a landmark has looked so far: its dark side, the colours beside it, its width.
+class LandmarkLooks {
+ public:
+  void observe(const Detection& detection);
+  /// A vertical edge keeps its dark side.
+  bool sameDarkSide(const Detection& detection) const;
+
+  struct Difference {
+    double distance2 = 0.0;
+    int numbers = 0;  ///< degrees of freedom of distance2: what could be compared
+  };
+  /// Colours: of the side that changed less, since the background of an edge changes with the place
+  /// it is seen from; root mean square over the channels, by colour_sigma gray levels. Width: where
+  /// both are known, by width_sigma of it.
+  Difference difference(const Detection& detection, double colour_sigma, double width_sigma) const;
+
+ private:
+  int sightings_ = 0;
+  int gradient_balance_ = 0;  ///< sightings with the brighter side on the right minus the others
+  Eigen::Vector3f left_ = Eigen::Vector3f::Zero();
+  Eigen::Vector3f right_ = Eigen::Vector3f::Zero();
+  double width_m_ = 0.0;
+};
+
+}  // namespace colonnade
