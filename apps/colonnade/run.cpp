@@ -127,6 +127,16 @@ ExitCode conclude(const RunArguments& arguments, const RunSummary& summary,
 std::vector<std::string> notesOf(const Session& session) { return session.imageStage().notes(); }
 std::vector<std::string> notesOf(const RangeBearingSession&) { return {}; }
 
+/// In the world of map().
+Pose2 poseOf(const Session& session) { return session.filter().pose(); }
+Pose2 poseOf(const RangeBearingSession& session) { return session.estimator().pose(); }
+Eigen::Matrix3d poseCovarianceOf(const Session& session) {
+  return session.filter().poseCovariance();
+}
+Eigen::Matrix3d poseCovarianceOf(const RangeBearingSession& session) {
+  return session.estimator().poseCovariance();
+}
+
 struct RunInputs {
   const RunArguments& arguments;
   const RunOptions& options;
@@ -147,9 +157,9 @@ ExitCode runSession(AnySession& session, FrameSource& source, const RunInputs& i
   const auto start = std::chrono::steady_clock::now();
 
   session.run(source, [&](const Frame& frame, const StepReport& report, const AnySession& now) {
-    recorder.add(frame, report, now.filter());
-    maps.add(frame, now.filter().pose(), now.filter().poseCovariance(),
-             report.motion.T_previous_robot, report.motion.covariance);
+    recorder.add(frame, report, poseOf(now), poseCovarianceOf(now));
+    maps.add(frame, poseOf(now), poseCovarianceOf(now), report.motion.T_previous_robot,
+             report.motion.covariance);
     progress.show(source.progress(), recorder.frames(),
                   std::to_string(now.filter().state().blocks.size()) + " landmarks");
     return !interrupt.requested();

@@ -18,7 +18,8 @@ namespace colonnade {
 /// few kilobytes a frame at most.
 class RunRecorder {
  public:
-  void add(const Frame& frame, const StepReport& report, const EkfSlam& filter);
+  void add(const Frame& frame, const StepReport& report, const Pose2& T_world_robot,
+           const Eigen::Matrix3d& covariance);
   /// trajectory.tum, trajectory_covariance.csv, trajectory_final.tum, events.csv.
   void write(const std::filesystem::path& folder) const;
 

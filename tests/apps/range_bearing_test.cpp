@@ -36,6 +36,19 @@ TEST_F(RangeBearingRun, MapsARealRobotFromItsReadings) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "none"));
 }
 
+TEST_F(RangeBearingRun, ALoopClosedLateMovesTheStartAndNotTheMap) {
+  COLONNADE_REQUIRE_RECORDING(data, "mrclam7");
+  ASSERT_EQ(colonnade("import mrclam '" + data.string() + "' --robot 1 -o robot1.rawlog").exit_code,
+            0);
+  const std::string run = "run robot1.rawlog --ground-truth robot1_ground_truth.tum ";
+  ASSERT_EQ(colonnade(run + "-o with").exit_code, 0);
+  ASSERT_EQ(colonnade(run + "-o start --set RangeBearing.world_with_map=false").exit_code, 0);
+  const double with_map = summary("with")["trajectory"]["ate_rmse_m"].get<double>();
+  const double from_start = summary("start")["trajectory"]["ate_rmse_m"].get<double>();
+  EXPECT_LT(with_map, 0.2);
+  EXPECT_LT(with_map, 0.7 * from_start);
+}
+
 TEST_F(Textbook, DeadReckoningDriftsAndTheFilterDoesNot) {
   const Outcome outcome = colonnade("textbook -o book --rounds 2 --runs 10 --seed 3");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;

@@ -144,14 +144,39 @@ TEST(RangeBearing, PartlyKnownIdentitiesJoinTheLandmarksFoundWithoutThem) {
   EXPECT_LT(outcome.rmse_m, 0.2);
 }
 
-TEST(RangeBearing, BearingsAloneNeedIdentitiesAndTheParallaxOfTwoPlaces) {
+TEST(RangeBearing, BearingsAloneMapAllPostsAndNeedIdentities) {
   RangeBearingOptions options;
   options.bearing_only = true;
   const Outcome outcome = drive(options);
   EXPECT_EQ(outcome.landmarks, 12u);
   EXPECT_LT(outcome.rmse_m, 0.3);
+  options.wait_for_parallax = true;
+  const Outcome delayed = drive(options);
+  EXPECT_EQ(delayed.landmarks, 12u);
+  EXPECT_LT(delayed.rmse_m, 0.3);
   options.use_ids = false;
   EXPECT_THROW(RangeBearingEstimator(options, {}), Error);
+}
+
+TEST(RangeBearing, TheWorldMovesWithTheMapAndNothingWithinIt) {
+  PostHall hall;
+  RangeBearingEstimator estimator({}, {});
+  double apart = 0.0, moved = 0.0;
+  for (int i = 0; i < kSteps; ++i) {
+    const auto step = hall.next();
+    estimator.step(0.25 * i, step.motion, step.scan);
+    const LandmarkMap here = estimator.map(), there = estimator.filter().landmarkMap();
+    ASSERT_EQ(here.size(), there.size());
+    for (std::size_t k = 0; k < here.size(); ++k) {
+      const auto seen = transform(estimator.pose().inverse(), here[k].p_world);
+      const auto in_filter = transform(estimator.filter().pose().inverse(), there[k].p_world);
+      apart = std::max(apart, (seen - in_filter).norm());
+      moved = std::max(moved, (here[k].p_world - there[k].p_world).norm());
+      EXPECT_NEAR(here[k].covariance.trace(), there[k].covariance.trace(), 1e-12);
+    }
+  }
+  EXPECT_LT(apart, 1e-9);
+  EXPECT_GT(moved, 1e-3);
 }
 
 TEST(RangeBearing, ThirtyPercentOutliersCostLittle) {

@@ -127,7 +127,7 @@ class Beam {
         break;
     }
     const Match match{child.landmark, reading.measurement};
-    if (!hypothesis.filter.update({&match, 1}, frame.noise_scale).front()) return std::nullopt;
+    if (!hypothesis.update({&match, 1}, frame.noise_scale).front()) return std::nullopt;
     hypothesis.observe(child.landmark, reading, frame);
     return child.landmark;
   }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "colonnade/slam/range_bearing_estimator.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -59,6 +60,10 @@ std::optional<Measurement> levelled(const RangeBearing& reading, const RangeBear
   }
   return m.z.allFinite() && m.R.allFinite() && m.p_robot_camera.allFinite() ? std::optional(m)
                                                                             : std::nullopt;
+}
+
+Eigen::Matrix2d turnOf(const RangeBearingHypothesis& hypothesis) {
+  return Eigen::Rotation2Dd(hypothesis.T_world_start.phi).toRotationMatrix();
 }
 
 }  // namespace
@@ -164,6 +169,28 @@ RangeBearingReport RangeBearingEstimator::step(double stamp_s, const MotionIncre
 }
 
 const EkfSlam& RangeBearingEstimator::filter() const { return impl_->hypotheses.front().filter; }
+Pose2 RangeBearingEstimator::pose() const {
+  const auto& hypothesis = impl_->hypotheses.front();
+  return hypothesis.T_world_start * hypothesis.filter.pose();
+}
+Eigen::Matrix3d RangeBearingEstimator::poseCovariance() const {
+  Eigen::Matrix3d J = Eigen::Matrix3d::Identity();
+  J.topLeftCorner<2, 2>() = turnOf(impl_->hypotheses.front());
+  return J * filter().poseCovariance() * J.transpose();
+}
+LandmarkMap RangeBearingEstimator::map() const {
+  const auto& hypothesis = impl_->hypotheses.front();
+  const Pose2& T = hypothesis.T_world_start;
+  const Eigen::Matrix2d R = turnOf(hypothesis);
+  LandmarkMap map = filter().landmarkMap();
+  for (LandmarkRecord& landmark : map) {
+    landmark.p_world = transform(T, landmark.p_world);
+    landmark.extent_a = transform(T, landmark.extent_a);
+    landmark.extent_b = transform(T, landmark.extent_b);
+    landmark.covariance = (R * landmark.covariance * R.transpose()).eval();
+  }
+  return map;
+}
 std::optional<int> RangeBearingEstimator::identityOf(LandmarkId landmark) const {
   return impl_->hypotheses.front().identityOf(landmark);
 }

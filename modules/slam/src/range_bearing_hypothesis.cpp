@@ -67,6 +67,24 @@ std::optional<LandmarkId> RangeBearingHypothesis::found(const LandmarkReading& r
   return id;
 }
 
+std::vector<WorldAnchor> RangeBearingHypothesis::anchors() const {
+  std::vector<WorldAnchor> anchors;
+  for (const Block& block : filter.state().blocks)
+    if (block.block_kind == BlockKind::kPoint)
+      anchors.push_back({Eigen::Vector2d(filter.state().values(block)),
+                         static_cast<double>(block.evidence.observations)});
+  return anchors;
+}
+
+std::vector<bool> RangeBearingHypothesis::update(std::span<const Match> matches,
+                                                 double noise_scale) {
+  const auto before = options_->world_with_map ? anchors() : std::vector<WorldAnchor>{};
+  auto used = filter.update(matches, noise_scale);
+  if (options_->world_with_map)
+    if (const auto back = motionOfMap(before, anchors())) T_world_start = T_world_start * *back;
+  return used;
+}
+
 void RangeBearingHypothesis::observe(LandmarkId landmark, const LandmarkReading& reading,
                                      const ReadingFrame& frame) {
   Evidence& evidence = filter.evidence(landmark);
@@ -115,6 +133,17 @@ void RangeBearingHypothesis::release(LandmarkId clone) {
 std::optional<LandmarkId> RangeBearingHypothesis::triangulate(const LandmarkReading& reading,
                                                               const ReadingFrame& frame,
                                                               std::vector<Event>& events) {
+  if (!options_->wait_for_parallax) {
+    const LandmarkId clone = filter.addPoseClone();
+    const auto id = filter.addLandmarkOnRay(clone, reading.measurement, options_->inverse_depth,
+                                            options_->inverse_depth_sigma);
+    filter.remove(clone);
+    if (id) {
+      observe(*id, reading, frame);
+      events.push_back(event(frame, "birth", *id, described(reading.identity) + " on its ray"));
+    }
+    return id;
+  }
   const auto first = first_bearings_.find(reading.identity);
   if (first == first_bearings_.end()) {
     if (!clone_of_frame_) clone_of_frame_ = filter.addPoseClone();

@@ -11,6 +11,7 @@
 #include "colonnade/slam/event.hpp"
 #include "colonnade/slam/range_bearing_options.hpp"
 #include "range_bearing_history.hpp"
+#include "range_bearing_world.hpp"
 
 namespace colonnade {
 
@@ -34,6 +35,9 @@ class RangeBearingHypothesis {
   RangeBearingHypothesis(const RangeBearingOptions& options, const FilterOptions& filter_options);
 
   EkfSlam filter;
+  /// The filter's world starts with the log. When a correction moves its map as a whole, as the
+  /// closing of a loop does, this moves the world along: the map stays and the start moves.
+  Pose2 T_world_start;
   double log_weight = 0.0;
   ReadingHistories::Leaf leaf = ReadingHistories::kRoot;
   std::vector<LandmarkId> used;  ///< landmarks seen in the present frame
@@ -47,6 +51,9 @@ class RangeBearingHypothesis {
   /// A new landmark at the reading.
   std::optional<LandmarkId> found(const LandmarkReading& reading, const ReadingFrame& frame,
                                   std::vector<Event>& events);
+  /// EkfSlam::update; keeps T_world_start.
+  std::vector<bool> update(std::span<const Match> matches, double noise_scale);
+
   /// Books a reading the filter used.
   void observe(LandmarkId landmark, const LandmarkReading& reading, const ReadingFrame& frame);
   /// Books a reading the gate kept from the landmark of its identity. A landmark refused more often
@@ -54,8 +61,9 @@ class RangeBearingHypothesis {
   /// several landmarks are refused and none is used in between, the pose becomes uncertain.
   void strike(LandmarkId landmark, const ReadingFrame& frame, std::vector<Event>& events);
 
-  /// The first bearing to an identity waits for a second one from elsewhere. What became a
-  /// landmark, if any.
+  /// A bearing to an identity the map does not know: a landmark somewhere on its ray, or, with
+  /// wait_for_parallax, one that waits for a second bearing from elsewhere. What became a landmark,
+  /// if any.
   std::optional<LandmarkId> triangulate(const LandmarkReading& reading, const ReadingFrame& frame,
                                         std::vector<Event>& events);
 
@@ -67,6 +75,7 @@ class RangeBearingHypothesis {
     LandmarkId clone{};
     Measurement measurement;
   };
+  std::vector<WorldAnchor> anchors() const;
   void forget(LandmarkId landmark);
   void release(LandmarkId clone);
 

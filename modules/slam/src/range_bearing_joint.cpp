@@ -88,7 +88,7 @@ ReadingDecisions decideJointly(const ReadingFrame& frame, const RangeBearingOpti
     matches.push_back({*plan.landmark[i], frame.readings[i].measurement});
     places.push_back(i);
   }
-  const auto used = hypothesis.filter.update(matches, frame.noise_scale);
+  const auto used = hypothesis.update(matches, frame.noise_scale);
 
   ReadingDecisions decisions;
   std::vector<std::optional<LandmarkId>> landmarks(count);

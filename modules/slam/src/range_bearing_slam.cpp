@@ -178,7 +178,7 @@ void RangeBearingSlam::getCurrentState(
   getCurrentRobotPose(out_robotPose);
   out_landmarksPositions.clear();
   out_landmarkIDs.clear();
-  for (const LandmarkRecord& landmark : estimator_->map()) {
+  for (const LandmarkRecord& landmark : estimator_->filter().landmarkMap()) {
     const auto place = static_cast<unsigned int>(out_landmarksPositions.size());
     out_landmarksPositions.emplace_back(landmark.p_world.x(), landmark.p_world.y());
     out_landmarkIDs[place] =
@@ -201,7 +201,7 @@ void RangeBearingSlam::getAs3DObject(std::shared_ptr<mrpt::opengl::CSetOfObjects
   outObj->insert(ellipse(filter.poseCovariance().topLeftCorner<2, 2>(),
                          options.quantiles_3D_representation, "robot",
                          filter.pose().translation()));
-  for (const LandmarkRecord& landmark : estimator_->map()) {
+  for (const LandmarkRecord& landmark : estimator_->filter().landmarkMap()) {
     const auto identity = estimator_->identityOf(landmark.id);
     outObj->insert(ellipse(landmark.covariance, options.quantiles_3D_representation,
                            identity ? "landmark " + std::to_string(*identity)

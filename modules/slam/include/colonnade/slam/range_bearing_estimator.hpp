@@ -31,8 +31,9 @@ struct RangeBearingReport {
 /// (Reid 1979; the number of histories is bounded, those that differ only in decisions long past
 /// are one). What a history decided may change later: decisions() tells the likeliest one's.
 ///
-/// Bearings alone: the first bearing to an identity waits, with a clone of its pose in the state,
-/// until another one gives enough parallax. They need identities.
+/// Bearings alone: the first bearing to an identity founds a landmark on its ray, its inverse depth
+/// in doubt (Montiel, Civera, Davison 2006); with wait_for_parallax it waits, with a clone of its
+/// pose in the state, until another one gives enough parallax. They need identities.
 class RangeBearingEstimator {
  public:
   /// Throws Error (kUsage) for options that contradict each other. Filter.gate_probability and
@@ -47,8 +48,12 @@ class RangeBearingEstimator {
   RangeBearingReport step(double stamp_s, const MotionIncrement& motion,
                           const RangeBearingScan& scan);
 
+  /// Of the likeliest history. Its world starts where the log does; that of pose() and map() stays
+  /// with the map (RangeBearing.world_with_map): between the two lies a known motion.
   const EkfSlam& filter() const;
-  LandmarkMap map() const { return filter().landmarkMap(); }
+  Pose2 pose() const;
+  Eigen::Matrix3d poseCovariance() const;
+  LandmarkMap map() const;
   /// The identity in the log, where it is believed and known.
   std::optional<int> identityOf(LandmarkId landmark) const;
   /// The landmark of every reading so far, in the order of the log.

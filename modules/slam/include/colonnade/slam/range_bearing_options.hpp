@@ -23,6 +23,7 @@ struct RangeBearingOptions {
   double known_gate_probability = 0.999999;
   double error_correlation_s = 0.0;
   bool wait_for_landmark = false;
+  bool world_with_map = true;
   int hypotheses = 40;
   double outlier_share = 0.03;
   double birth_share = 0.01;
@@ -31,6 +32,9 @@ struct RangeBearingOptions {
   double near_factor = 1.5;
   int probation_sightings = 3;
   double probation_s = 60.0;
+  bool wait_for_parallax = false;
+  double inverse_depth = 0.35;
+  double inverse_depth_sigma = 0.25;
   double min_baseline_m = 0.1;
   double min_parallax = radians(8.0);
 
@@ -54,6 +58,9 @@ struct RangeBearingOptions {
              "Filter.error_correlation_s");
     v.flag("wait_for_landmark", wait_for_landmark,
            "stand still until there is a landmark, as MRPT's kf-slam does");
+    v.flag("world_with_map", world_with_map,
+           "when a correction moves the whole map, move the world along; false: the world starts "
+           "where the log does");
     v.integer("hypotheses", hypotheses, {1, 1000}, "joint histories kept side by side");
     v.number("outlier_share", outlier_share, {1e-6, 0.5}, "of the readings (hypotheses)");
     v.number("birth_share", birth_share, {1e-9, 0.5},
@@ -67,9 +74,16 @@ struct RangeBearingOptions {
               "that make a landmark without identity permanent");
     v.number("probation_s", probation_s, {0.1, 1e6},
              "unseen, after which one with fewer sightings is purged");
-    v.number("min_baseline_m", min_baseline_m, {0, 100}, "across the first ray (bearing_only)");
+    v.flag("wait_for_parallax", wait_for_parallax,
+           "a landmark starts with a second bearing from elsewhere; false: with the first "
+           "(bearing_only)");
+    v.number("inverse_depth", inverse_depth, {0.001, 100},
+             "1/m, of a landmark on its first ray (bearing_only)");
+    v.number("inverse_depth_sigma", inverse_depth_sigma, {0.001, 100}, "1/m (bearing_only)");
+    v.number("min_baseline_m", min_baseline_m, {0, 100},
+             "across the first ray (wait_for_parallax)");
     v.angle("min_parallax_deg", min_parallax, {0.1, 60},
-            "between the first and the present ray (bearing_only)");
+            "between the first and the present ray (wait_for_parallax)");
   }
 };
 

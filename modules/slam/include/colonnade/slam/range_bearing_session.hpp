@@ -25,6 +25,7 @@ class RangeBearingSession {
   void run(FrameSource& source, const Observer& observer);
 
   const EkfSlam& filter() const { return estimator_.filter(); }
+  const RangeBearingEstimator& estimator() const { return estimator_; }
   /// Where the log's identities are believed and every landmark has one, they are the ids of the
   /// map; otherwise those of the filter.
   LandmarkMap map() const;
