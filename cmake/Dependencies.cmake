@@ -4,7 +4,7 @@
 find_package(Eigen3 3.4 REQUIRED)
 find_package(Boost 1.74 REQUIRED)
 find_package(ZLIB REQUIRED)
-find_package(OpenCV 4.6 REQUIRED COMPONENTS core imgproc imgcodecs calib3d rgbd)
+find_package(OpenCV 4.6 REQUIRED COMPONENTS core imgproc imgcodecs videoio calib3d rgbd)
 foreach(library IN ITEMS obs maps opengl vision tfest slam img io serialization system math poses config)
   find_package(mrpt-${library} 2.5 REQUIRED)
 endforeach()

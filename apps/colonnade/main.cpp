@@ -22,6 +22,8 @@ constexpr Verb kVerbs[] = {
     {"run", "The main job: a rawlog to a landmark map and a trajectory", colonnade::addRun},
     {"detect", "What the detectors see, frame by frame: overlays and a table",
      colonnade::addDetect},
+    {"calibrate", "Distance and lateral shift from the image of a pillar of known width",
+     colonnade::addCalibrate},
     {"evaluate", "A trajectory against ground truth", colonnade::addEvaluate},
     {"campaign", "Worlds x seeds x configurations in parallel, and one table",
      colonnade::addCampaign},

@@ -24,6 +24,7 @@ inline CLI::Validator notNegative() {
 
 Action addRun(CLI::App& verb);
 Action addDetect(CLI::App& verb);
+Action addCalibrate(CLI::App& verb);
 Action addInspect(CLI::App& verb);
 Action addImport(CLI::App& verb);
 Action addSimulate(CLI::App& verb);

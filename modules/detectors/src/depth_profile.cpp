@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "colonnade/detectors/levelled_camera.hpp"
 #include "statistics.hpp"
@@ -20,7 +21,7 @@ class Bins {
   Bins(int columns, int rows)
       : rows_(static_cast<std::size_t>(rows)),
         counts_(static_cast<std::size_t>(columns) * DepthProfile::kBands, 0),
-        values_(counts_.size() * rows_) {}
+        values_(std::make_unique_for_overwrite<float[]>(counts_.size() * rows_)) {}
 
   void add(int column, int band, float z) {
     const std::size_t bin =
@@ -33,8 +34,8 @@ class Bins {
     for (std::size_t band = 0; band < DepthProfile::kBands; ++band) {
       const std::size_t bin = static_cast<std::size_t>(index) * DepthProfile::kBands + band;
       if (static_cast<int>(counts_[bin]) < min_pixels) continue;
-      const auto first = values_.begin() + static_cast<std::ptrdiff_t>(bin * rows_);
-      band_.assign(first, first + static_cast<std::ptrdiff_t>(counts_[bin]));
+      const float* const first = values_.get() + bin * rows_;
+      band_.assign(first, first + counts_[bin]);
       all_.insert(all_.end(), band_.begin(), band_.end());
       column.band_z[band] = static_cast<double>(medianOf(band_));
     }
@@ -44,7 +45,7 @@ class Bins {
  private:
   std::size_t rows_;
   std::vector<std::size_t> counts_;
-  std::vector<float> values_;
+  std::unique_ptr<float[]> values_;
   std::vector<float> band_;
   std::vector<float> all_;
 };
@@ -76,17 +77,21 @@ DepthProfile makeDepthProfile(const Frame& frame, const DepthProfileOptions& opt
     const auto* depth_m = frame.depth_m.ptr<float>(v);
     const Eigen::Vector3d first = camera.ray(0.0, v);
     const Eigen::Vector3d step = camera.ray(1.0, v) - first;
+    // Of the ray of column u: up, ahead and to the right, each first + u * step.
+    const double ahead_first = forward.dot(first.head<2>());
+    const double ahead_step = forward.dot(step.head<2>());
+    const double right_first = right.dot(first.head<2>());
+    const double right_step = right.dot(step.head<2>());
     for (int u = 0; u < columns; ++u) {
       const auto depth = static_cast<double>(depth_m[u]);
       if (!(depth > kNearest_m && depth < kFarthest_m)) continue;  // also NaN
-      const Eigen::Vector3d ray = first + u * step;
-      const double height = camera.height() + depth * ray.z();
+      const double height = camera.height() + depth * (first.z() + u * step.z());
       if (height < options.min_height_m || height >= options.max_height_m) continue;
-      const double ahead = forward.dot(ray.head<2>());
+      const double ahead = ahead_first + u * ahead_step;
       if (ahead < 0.1) continue;
-      const double column = middle + profile.focal_px * right.dot(ray.head<2>()) / ahead;
-      const auto index = static_cast<int>(std::lround(column));
-      if (index < 0 || index >= columns) continue;
+      const double column = middle + profile.focal_px * (right_first + u * right_step) / ahead;
+      if (!(column > -0.5 && column < columns - 0.5)) continue;
+      const auto index = static_cast<int>(column + 0.5);
       const int band = std::min(static_cast<int>((height - options.min_height_m) / band_height),
                                 DepthProfile::kBands - 1);
       bins.add(index, band, static_cast<float>(depth * ahead));

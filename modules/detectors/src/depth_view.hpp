@@ -36,7 +36,7 @@ class DepthView {
     constexpr double kFarthest_m = 15.0;
     if (!(depth_m > kNearest_m && depth_m < kFarthest_m)) return std::nullopt;  // also NaN
     const Eigen::Vector3d offset = depth_m * camera_.ray(u, v);
-    return SeenPoint{camera_.centre() + offset, depth_m, std::hypot(offset.x(), offset.y())};
+    return SeenPoint{camera_.centre() + offset, depth_m, offset.head<2>().norm()};
   }
   std::optional<SeenPoint> at(const Eigen::Vector2d& p_px) const {
     if (!p_px.allFinite() || p_px.cwiseAbs().maxCoeff() > 1e6) return std::nullopt;

@@ -22,18 +22,31 @@ DetectorBank::DetectorBank(const DetectorOptions& options)
       pillars_(options.pillars, options.geometry, options.lines),
       floor_edges_(options.floor_edges, options.geometry, options.lines),
       depth_slopes_(options.depth_slopes, options.depth_profile, options.geometry),
-      walls_(options.wall_directions, options.depth_profile) {}
+      walls_(options.wall_directions, options.depth_profile),
+      short_segments_(options.short_segments, options.geometry),
+      segmenter_(options.segmentation) {}
 
-Detections DetectorBank::detect(const Frame& frame, const EdgeLines& edges) {
+Detections DetectorBank::detect(const Frame& frame, const EdgeLines& edges,
+                                const std::optional<Pose2>& T_previous_robot) {
   Detections all;
   wall_directions_.clear();
+  check_ = checkFrame(frame, edges);
+  segmentation_ = segmenter_.segment(frame, T_previous_robot);
   if (!frame.camera.isCalibrated()) return all;
-  const RefinedLines lines = refineLines(frame.gray, edges, options_.lines);
-  if (options_.pillars.enabled) append(all, pillars_.detect(frame, lines));
-  if (options_.floor_edges.enabled) append(all, floor_edges_.detect(frame, lines));
-  const DepthProfile profile = makeDepthProfile(frame, options_.depth_profile);
-  if (options_.depth_slopes.enabled) append(all, depth_slopes_.detect(frame, profile));
-  wall_directions_ = walls_.detect(profile);
+  if (check_.image_usable) {
+    const RefinedLines lines = refineLines(frame.gray, edges, options_.lines);
+    if (lines.empty()) check_.lacking.emplace_back("the image shows no straight edge");
+    if (options_.pillars.enabled) append(all, pillars_.detect(frame, lines));
+    if (options_.floor_edges.enabled) append(all, floor_edges_.detect(frame, lines));
+  }
+  if (check_.depth_usable) {
+    const DepthProfile profile = makeDepthProfile(frame, options_.depth_profile);
+    if (options_.depth_slopes.enabled) append(all, depth_slopes_.detect(frame, profile));
+    wall_directions_ = walls_.detect(profile);
+  }
+  if (options_.short_segments.enabled && check_.image_usable && check_.depth_usable)
+    append(all, short_segments_.detect(frame, edges));
+  refuseSegmented(frame, segmentation_, options_.segmentation, all);
   return all;
 }
 

@@ -70,6 +70,22 @@ cv::Mat background(const Frame& frame) {
   return picture;
 }
 
+/// Moving things reddish, panes and mirrors bluish.
+void tint(cv::Mat& view, const Segmentation& segmentation) {
+  const int side = segmentation.cell_px;
+  for (int row = 0; row < segmentation.rows; ++row) {
+    for (int column = 0; column < segmentation.columns; ++column) {
+      const auto label =
+          segmentation.labels[static_cast<std::size_t>(row * segmentation.columns + column)];
+      if (label == Segmentation::kStatic) continue;
+      const cv::Rect cell =
+          cv::Rect(column * side, row * side, side, side) & cv::Rect(0, 0, view.cols, view.rows);
+      cv::Mat part = view(cell);
+      part += label == Segmentation::kMoving ? cv::Scalar(0, 0, 70) : cv::Scalar(70, 20, 0);
+    }
+  }
+}
+
 void drawLegend(cv::Mat& picture, const Detections& detections) {
   std::array<int, 5> counts{};
   for (const auto& detection : detections) {
@@ -96,12 +112,14 @@ void drawLegend(cv::Mat& picture, const Detections& detections) {
 
 }  // namespace
 
-cv::Mat drawDetections(const Frame& frame, const EdgeLines& edges, const Detections& detections) {
+cv::Mat drawDetections(const Frame& frame, const EdgeLines& edges, const Detections& detections,
+                       const Segmentation* segmentation) {
   const cv::Mat image = background(frame);
   cv::Mat picture = cv::Mat::zeros(image.rows + kLegendHeight, image.cols, CV_8UC3);
   cv::Mat view = picture.rowRange(0, image.rows);
   image.convertTo(view, -1, 0.7);
   if (edges.edges.size() == image.size()) view.setTo(cv::Scalar(110, 110, 110), edges.edges != 0);
+  if (segmentation) tint(view, *segmentation);
   for (const bool accepted : {false, true}) {
     for (const auto& detection : detections) {
       if (detection.accepted() != accepted) continue;

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
@@ -49,7 +51,13 @@ class Walker {
   /// gradients that point along +1 and -1 across it.
   SignedSamples collect(const Straight& line, double reach) const {
     SignedSamples samples;
+    samples.rising.reserve(kExpected);
+    samples.falling.reserve(kExpected);
     for (int s = 1; s + 1 < length_; ++s) {
+      if (isBlockStart(s) && nothingWithin(line, s, reach)) {
+        s += kBlock - 1;
+        continue;
+      }
       const double centre = line.across(s);
       if (centre < 0.0 || centre > width_) continue;
       // Casts instead of ceil and floor, which are calls: centre - reach may be negative, but then
@@ -58,13 +66,21 @@ class Walker {
       const int high = std::min(width_ - 3, static_cast<int>(centre + reach));
       int nearest[2] = {-1, -1};
       const std::uint8_t* edge = edges_ + s * edges_s_;
-      for (int t = low; t <= high; ++t) {
-        const int code = edge[t * edges_t_];
-        if (code == 0) continue;
+      const auto consider = [&](int t, int code) {
         const int sign = sign_of_code_[code];
-        if (sign == 0) continue;
+        if (sign == 0) return;
         int& best = nearest[sign > 0 ? 0 : 1];
         if (best < 0 || std::abs(t - centre) < std::abs(best - centre)) best = t;
+      };
+      if (edges_t_ == 1 && high - low < kBlock && low + kBlock <= width_) {
+        for (std::uint64_t codes = word(edge + low) & firstBytes(high - low + 1); codes != 0;) {
+          const int byte = std::countr_zero(codes) / 8;
+          consider(low + byte, static_cast<int>(codes >> (8 * byte) & 0xff));
+          codes &= ~(std::uint64_t{0xff} << (8 * byte));
+        }
+      } else {
+        for (int t = low; t <= high; ++t)
+          if (const int code = edge[t * edges_t_]; code != 0) consider(t, code);
       }
       if (nearest[0] >= 0) samples.rising.push_back(measured(s, nearest[0]));
       if (nearest[1] >= 0) samples.falling.push_back(measured(s, nearest[1]));
@@ -73,6 +89,39 @@ class Walker {
   }
 
  private:
+  static constexpr int kBlock = 8;  ///< steps looked at as one 64-bit word where columns run along
+  static constexpr std::size_t kExpected = 512;
+
+  bool isBlockStart(int s) const { return edges_s_ == 1 && s % kBlock == 1; }
+
+  /// For flat lines: no edge pixel within reach of the line in a whole block of columns. May say
+  /// false where there is none.
+  bool nothingWithin(const Straight& line, int s, double reach) const {
+    if (s + kBlock >= length_) return false;
+    const double first = line.across(s);
+    const double last = line.across(s + kBlock - 1);
+    const double nearest = std::min(first, last);
+    const double farthest = std::max(first, last);
+    if (!(farthest >= 0.0 && nearest <= width_)) return true;
+    const int low = std::max(2, static_cast<int>(nearest - reach));
+    const int high = std::min(width_ - 3, static_cast<int>(farthest + reach) + 1);
+    std::uint64_t any = 0;
+    for (int t = low; t <= high; ++t) any |= word(edges_ + t * edges_t_ + s);
+    return any == 0;
+  }
+
+  /// Eight pixels, the first one in the lowest byte.
+  static std::uint64_t word(const std::uint8_t* first) {
+    std::uint64_t codes;
+    std::memcpy(&codes, first, sizeof codes);
+    if constexpr (std::endian::native == std::endian::big) codes = __builtin_bswap64(codes);
+    return codes;
+  }
+  static std::uint64_t firstBytes(int count) {
+    if (count <= 0) return 0;
+    return count >= kBlock ? ~std::uint64_t{0} : (std::uint64_t{1} << (8 * count)) - 1;
+  }
+
   /// Which way across the line a gradient points, by edge code (0 is no edge, then the sectors).
   static constexpr int kSteep[9] = {0, 1, 1, 0, -1, -1, -1, 0, 1};
   static constexpr int kFlat[9] = {0, 0, 1, 1, 1, 0, -1, -1, -1};

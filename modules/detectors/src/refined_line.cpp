@@ -3,6 +3,7 @@
 #include "colonnade/detectors/refined_line.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <tuple>
@@ -64,6 +65,7 @@ std::optional<Straight> consensus(const Samples& samples, double inlier_px) {
 
 Samples within(const Samples& samples, const Straight& line, double reach) {
   Samples kept;
+  kept.reserve(samples.size());
   std::copy_if(samples.begin(), samples.end(), std::back_inserter(kept), [&](const Sample& sample) {
     return std::abs(sample.across - line.across(sample.s)) <= reach;
   });
@@ -89,8 +91,12 @@ double alignedShare(const Samples& samples, const RefinedLine& line) {
       (line.steep ? Eigen::Vector2d(1.0, -line.slope) : Eigen::Vector2d(-line.slope, 1.0));
   const double direction = std::atan2(normal.y(), normal.x());
   constexpr double kAligned = radians(33.0);
+  std::array<bool, 8> across{};
+  for (std::size_t sector = 0; sector < across.size(); ++sector)
+    across[sector] =
+        std::abs(wrapAngle(static_cast<double>(sector) * kPi / 4.0 - direction)) < kAligned;
   const auto aligned = std::count_if(samples.begin(), samples.end(), [&](const Sample& sample) {
-    return std::abs(wrapAngle(sample.sector * kPi / 4.0 - direction)) < kAligned;
+    return across[static_cast<std::size_t>(sample.sector) % across.size()];
   });
   return static_cast<double>(aligned) / static_cast<double>(samples.size());
 }
@@ -157,6 +163,20 @@ bool isDuplicate(const RefinedLine& line, const RefinedLine& kept, double duplic
   return overlap > 0.4 * (high - low);
 }
 
+/// Another seed has led to this line already: neighbouring bins share most edges.
+bool isFitted(const Straight& line, const Samples& samples, bool steep, int sign,
+              const RefinedLines& fitted) {
+  constexpr double kSame_px = 0.7;
+  return std::any_of(fitted.begin(), fitted.end(), [&](const RefinedLine& other) {
+    if (other.steep != steep || other.gradient_sign != sign) return false;
+    const auto same = [&](double s) {
+      return std::abs(other.across(s) - line.across(s)) < kSame_px;
+    };
+    return same(samples.front().s) && same(samples.back().s) && same(other.begin) &&
+           same(other.end);
+  });
+}
+
 void refineSeed(const cv::Mat& gray, const cv::Mat& edges, const HoughLine& seed,
                 const LineRefinementOptions& options, RefinedLines& lines) {
   const double theta = radians(seed.theta_index);
@@ -173,7 +193,7 @@ void refineSeed(const cv::Mat& gray, const cv::Mat& edges, const HoughLine& seed
       continue;
     }
     const auto agreed = consensus(candidates, options.inlier_px);
-    if (!agreed) continue;
+    if (!agreed || isFitted(*agreed, candidates, steep, sign, lines)) continue;
     const SignedSamples beside = walker.collect(*agreed, 2.0 * options.inlier_px);
     const Samples& near = sign > 0 ? beside.rising : beside.falling;
     const auto fitted = leastSquares(within(near, *agreed, options.inlier_px), nullptr);

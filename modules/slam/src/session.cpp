@@ -80,13 +80,16 @@ void Session::run(FrameSource& source, const Observer& observer) {
     report.edges = backend->extract(frame->gray, edgeViewOf(*frame));
     report.times_ms.edges = watch.lap();
 
-    report.detections = detectors.detect(*frame, report.edges);
+    report.detections = detectors.detect(
+        *frame, report.edges,
+        report.motion.isMeasured() ? std::optional(report.motion.T_previous_robot) : std::nullopt);
     report.times_ms.detectors = watch.lap();
 
     filter.predict(report.motion.T_previous_robot, report.motion.covariance);
     const double noise_scale =
         correlatedNoiseScale(frame->stamp_s - former_stamp_s, filter.options().error_correlation_s);
     former_stamp_s = frame->stamp_s;
+    for (const std::string& reason : detectors.lacking()) filter.health().refuse(reason);
     axes.step(*frame, detectors.wallDirections(), noise_scale, filter, report.events);
     report.association = association.match(report.detections, filter, landmarks);
     const auto used = filter.update(report.association.matches, noise_scale);

@@ -2,11 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "colonnade/detectors/depth_slope_detector.hpp"
 #include "colonnade/detectors/floor_edge_detector.hpp"
+#include "colonnade/detectors/frame_check.hpp"
 #include "colonnade/detectors/pillar_detector.hpp"
+#include "colonnade/detectors/segmentation.hpp"
+#include "colonnade/detectors/short_segment_detector.hpp"
 #include "colonnade/detectors/wall_direction_detector.hpp"
 
 namespace colonnade {
@@ -20,6 +25,8 @@ struct DetectorOptions {
   DepthProfileOptions depth_profile;
   DepthSlopeOptions depth_slopes;
   WallDirectionOptions wall_directions;
+  ShortSegmentOptions short_segments;
+  SegmentationOptions segmentation;
 
   template <class Take>
   void each(Take&& take) {
@@ -30,6 +37,8 @@ struct DetectorOptions {
     take(depth_profile);
     take(depth_slopes);
     take(wall_directions);
+    take(short_segments);
+    take(segmentation);
   }
 };
 
@@ -38,12 +47,19 @@ class DetectorBank {
  public:
   explicit DetectorBank(const DetectorOptions& options = {});
 
-  /// Pillars, then floor edges, then corners; partners are indices into the whole. A frame without
+  /// Pillars, floor edges, corners, legs; partners are indices into the whole. A frame without
   /// gray image gives corners only, one without depth no corners and no ranges, one without a
   /// calibrated camera nothing.
-  Detections detect(const Frame& frame, const EdgeLines& edges);
+  /// T_previous_robot: how the robot moved since the frame given before. With it, what is seen on
+  /// moving things is refused; without it (the first frame, motion not known) it cannot be told.
+  Detections detect(const Frame& frame, const EdgeLines& edges,
+                    const std::optional<Pose2>& T_previous_robot = std::nullopt);
   /// Walls of the frame last given to detect(), longest first.
   const std::vector<WallDirection>& wallDirections() const { return wall_directions_; }
+  /// What moves and what mirrors in that frame.
+  const Segmentation& segmentation() const { return segmentation_; }
+  /// Why that frame shows nothing, if so; to be counted.
+  const std::vector<std::string>& lacking() const { return check_.lacking; }
 
  private:
   DetectorOptions options_;
@@ -51,7 +67,11 @@ class DetectorBank {
   FloorEdgeDetector floor_edges_;
   DepthSlopeDetector depth_slopes_;
   WallDirectionDetector walls_;
+  ShortSegmentDetector short_segments_;
+  Segmenter segmenter_;
   std::vector<WallDirection> wall_directions_;
+  Segmentation segmentation_;
+  FrameCheck check_;
 };
 
 }  // namespace colonnade

@@ -25,6 +25,11 @@ struct MotionIncrement {
   Pose2 T_previous_robot;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< (x, y, phi) in the former robot's axes
   MotionSource source = MotionSource::kNone;
+
+  /// False: the first frame, or a guess from the former velocity.
+  bool isMeasured() const {
+    return source != MotionSource::kNone && source != MotionSource::kConstantVelocity;
+  }
 };
 
 }  // namespace colonnade

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "colonnade/motion/motion_estimator.hpp"
+#include "colonnade/slam/session.hpp"
+
+namespace colonnade {
+
+/// The stages of a session up to the detections, without a filter: for verbs that only look.
+class DetectStages {
+ public:
+  /// Throws Error (kUsage) for an image stage that does not exist.
+  DetectStages(const SessionOptions& options, const std::string& backend);
+
+  struct Seen {
+    EdgeLines edges;
+    Detections detections;
+    std::vector<std::string> lacking;  ///< why the frame shows nothing, if so
+    double edges_ms = 0.0;
+    double detectors_ms = 0.0;
+  };
+  /// Frames in the order of the log; rewrites the mounting of hand-carried cameras.
+  Seen see(Frame& frame);
+  const DetectorBank& detectors() const { return detectors_; }
+
+ private:
+  std::shared_ptr<CameraTracker> tracker_;
+  MountingEstimator mounting_;
+  MotionEstimator motion_;
+  std::unique_ptr<EdgeLineBackend> backend_;
+  DetectorBank detectors_;
+};
+
+}  // namespace colonnade
