@@ -5,6 +5,7 @@
 #include "colonnade/base/angle.hpp"
 #include "colonnade/slam/association.hpp"
 #include "colonnade/slam/axis_tracker.hpp"
+#include "colonnade/slam/floor_directions.hpp"
 #include "colonnade/slam/initializer.hpp"
 
 namespace colonnade {
@@ -168,6 +169,28 @@ TEST(AxisTracker, WallsHoldTheHeadingAndObliqueOnesFoundTheirOwnAxis) {
   wall.direction = wrapQuarterTurn(radians(50.0));
   for (int i = 0; i < 10; ++i) tracker.step(frame, {wall}, 1.0, filter, events);
   EXPECT_EQ(2u, tracker.axes().size());
+}
+
+TEST(FloorDirections, FloorEdgesTellTheDirectionsOfWallsLongestFirst) {
+  Detection edge;
+  edge.measurement.kind = LandmarkKind::kFloorEdge;
+  edge.measurement.z = Eigen::Vector2d(radians(100.0), 1.0);
+  edge.measurement.R = Eigen::Vector2d(radians(0.5) * radians(0.5), 1e-4).asDiagonal();
+  edge.p_robot_b = Eigen::Vector2d(2.0, 0.0);
+  Detection longer = edge;
+  longer.measurement.z(0) = radians(-85.0);
+  longer.p_robot_b = Eigen::Vector2d(3.0, 0.0);
+  Detection refused = edge;
+  refused.refusal = "above the floor";
+  Detection broken = edge;
+  broken.measurement.z(0) = std::nan("");
+  const Detection pillar = seen({}, {2.0, 0.0}, LandmarkKind::kPillarEdge, false);
+  const auto walls = floorEdgeDirections({edge, longer, refused, broken, pillar});
+  ASSERT_EQ(2u, walls.size());
+  EXPECT_NEAR(radians(5.0), walls[0].direction, 1e-9);
+  EXPECT_NEAR(radians(10.0), walls[1].direction, 1e-9);
+  EXPECT_NEAR(radians(0.5), walls[1].sigma, 1e-9);
+  EXPECT_NEAR(2.0, walls[1].length_m, 1e-9);
 }
 
 }  // namespace

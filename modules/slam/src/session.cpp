@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "colonnade/detectors/edge_view_of.hpp"
+#include "colonnade/slam/floor_directions.hpp"
 #include "stopwatch.hpp"
 
 namespace colonnade {
@@ -90,7 +91,10 @@ void Session::run(FrameSource& source, const Observer& observer) {
         correlatedNoiseScale(frame->stamp_s - former_stamp_s, filter.options().error_correlation_s);
     former_stamp_s = frame->stamp_s;
     for (const std::string& reason : detectors.lacking()) filter.health().refuse(reason);
-    axes.step(*frame, detectors.wallDirections(), noise_scale, filter, report.events);
+    axes.step(*frame,
+              frame->depth_m.empty() ? floorEdgeDirections(report.detections)
+                                     : detectors.wallDirections(),
+              noise_scale, filter, report.events);
     report.association = association.match(report.detections, filter, landmarks);
     const auto used = filter.update(report.association.matches, noise_scale);
     book(*frame, report, used, filter, landmarks);
