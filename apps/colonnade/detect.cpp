@@ -11,8 +11,8 @@
 #include "colonnade/base/log_path.hpp"
 #include "colonnade/detectors/detection_csv.hpp"
 #include "colonnade/detectors/draw_detections.hpp"
-#include "colonnade/evaluation/detection_score.hpp"
 #include "colonnade/frames/image_source.hpp"
+#include "detect_score.hpp"
 #include "detect_stages.hpp"
 #include "detect_tally.hpp"
 #include "detect_video.hpp"
@@ -38,25 +38,13 @@ struct DetectArguments {
   std::size_t picture_every = 1;
   fs::path video;
   fs::path path_map;
-  bool score = false;
+  DetectScoreRequest score;
+  std::optional<std::uint64_t> errors;  ///< seed of what is put wrong before detection
 };
 
 std::unique_ptr<FrameSource> openInput(const fs::path& input, const SourceOptions& options) {
   if (ImageSource::isImage(input)) return std::make_unique<ImageSource>(input, options);
   return std::make_unique<RawlogSource>(input, options);
-}
-
-std::vector<ImageLine> acceptedLines(const Frame& frame, const Detections& detections) {
-  std::vector<ImageLine> lines;
-  for (const Detection& d : detections) {
-    if (!d.accepted()) continue;
-    const bool ranged = d.measurement.hasRange();
-    const auto inside = clipped(
-        {d.kind(), d.a_px, d.b_px, ranged ? std::optional(d.measurement.z(1)) : std::nullopt},
-        frame.camera.width_px, frame.camera.height_px);
-    if (inside) lines.push_back(*inside);
-  }
-  return lines;
 }
 
 std::string pictureName(std::size_t frame) {
@@ -69,8 +57,7 @@ std::string pictureName(std::size_t frame) {
 class DetectRecorder {
  public:
   explicit DetectRecorder(const DetectArguments& arguments) : arguments_(arguments) {
-    if (arguments.score)
-      truth_ = readColumnsCsv(logStem(arguments.input).string() + "_columns.csv");
+    if (arguments.score.any()) score_.emplace(arguments.score, logStem(arguments.input).string());
     if (!arguments.video.empty()) video_.emplace(arguments.video);
     if (arguments.path_map.empty()) return;
     Config config = Config::fromFile(arguments.path_map);
@@ -84,13 +71,7 @@ class DetectRecorder {
 
   void add(const Frame& frame, const DetectStages::Seen& seen, const Segmentation& segmentation) {
     tally_.add(seen);
-    if (arguments_.score) {
-      // A frame that shows nothing true has no row: whatever is detected in it is false.
-      const auto there = truth_.find(microseconds(frame.stamp_s));
-      frames_in_table_ += there != truth_.end() ? 1 : 0;
-      score_.add(acceptedLines(frame, seen.detections),
-                 there != truth_.end() ? there->second : std::vector<TrueImageLine>());
-    }
+    if (score_) score_->add(frame, seen.detections);
     if (path_map_) path_map_->add(frame, pillar_.find(frame, seen.detections));
     const bool wanted = arguments_.picture_every > 0 && frame.index % arguments_.picture_every == 0;
     if (!wanted && !video_) return;
@@ -102,18 +83,18 @@ class DetectRecorder {
   /// Writes what is complete only now.
   void close() {
     if (video_) video_->close();
-    if (arguments_.score && frames_in_table_ == 0)
+    if (score_ && !score_->hasFrames())
       throw Error(arguments_.input.string() + ": no frame of it stands in " +
-                  logStem(arguments_.input).string() + "_columns.csv; is that of another log?");
+                  score_->table().string() + "; is that of another log?");
     if (path_map_) {
       path_map_->finish();
       path_map_->write(folder_);
     }
     auto json = tally_.json();
-    if (arguments_.score) json["score"] = toJson(score_);
+    if (score_) score_->addTo(json);
     writeFileAtomically(folder_ / "detect.json", json.dump(2) + "\n");
-    std::printf("%s%sresults    %s\n", tally_.text().c_str(),
-                arguments_.score ? toText(score_).c_str() : "", folder_.c_str());
+    std::printf("%s%sresults    %s\n", tally_.text().c_str(), score_ ? score_->text().c_str() : "",
+                folder_.c_str());
   }
   std::size_t frames() const { return tally_.frames; }
 
@@ -121,9 +102,7 @@ class DetectRecorder {
   const DetectArguments& arguments_;
   fs::path folder_;
   DetectTally tally_;
-  TrueImageLines truth_;
-  DetectionScore score_;
-  std::size_t frames_in_table_ = 0;
+  std::optional<DetectScore> score_;
   std::optional<DetectVideo> video_;
   std::optional<PathMap> path_map_;
   KnownPillar pillar_{0.0};
@@ -134,6 +113,11 @@ ExitCode detect(const DetectArguments& arguments) {
   const RunOptions options = readRunOptions(arguments.config, arguments.assignments);
   const auto source = openInput(arguments.input, options.source);
   DetectStages stages(options.session, arguments.backend);
+  std::optional<MountingErrors> errors;
+  if (arguments.errors) errors.emplace(options.session.detectors.geometry, *arguments.errors);
+  const auto putWrong = [&errors](Frame& frame) {
+    if (errors) errors->apply(frame);
+  };
   DetectRecorder recorder(arguments);
   const fs::path folder = makeResultsFolder(arguments.output, arguments.input);
   recorder.writeTo(folder);
@@ -145,7 +129,7 @@ ExitCode detect(const DetectArguments& arguments) {
     std::fputs(detectionCsvHeader().c_str(), table);
     while (auto frame = interrupt.requested() ? std::nullopt : source->next()) {
       if (frame->gray.empty() && frame->depth_m.empty()) continue;
-      const DetectStages::Seen seen = stages.see(*frame);
+      const DetectStages::Seen seen = stages.see(*frame, putWrong);
       std::fputs(detectionCsvRows(*frame, seen.detections).c_str(), table);
       recorder.add(*frame, seen, stages.detectors().segmentation());
       progress.show(source->progress(), recorder.frames(), "detecting");
@@ -181,8 +165,24 @@ Action addDetect(CLI::App& verb) {
   verb.add_option("--video", arguments->video, "all overlays as a Motion-JPEG film, FILE.avi");
   verb.add_option("--path-map", arguments->path_map,
                   "INI of calibrate -o: the camera's path before that pillar, map and table");
-  verb.add_flag("--score", arguments->score,
+  verb.add_flag("--score", arguments->score.score,
                 "against STEM_columns.csv, which simulate writes beside its log");
+  verb.add_option("--labels", arguments->score.labels,
+                  "score against this table instead: columns of STEM_columns.csv");
+  verb.add_option(
+      "--errors", arguments->errors,
+      "seed: put mounting and depth of each frame wrong as [Geometry] says they may be");
+  verb.add_option("--thesis-thresholds", arguments->score.thesis_thresholds,
+                  "mm per pixel: count good and bad landmarks of the 2012 thesis' rule, e.g. "
+                  "0,100,1000")
+      ->delimiter(',');
+  verb.add_option("--thesis-rows", arguments->score.thesis.rows, "rows that rule looks at")
+      ->check(CLI::Range(1, 2000))
+      ->capture_default_str();
+  verb.add_option("--thesis-colour", arguments->score.thesis.colour_share,
+                  "its weight of colour in full light")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
   verb.footer(
       "Examples:\n"
       "  colonnade detect corridor.rawlog -o seen\n"

@@ -16,9 +16,10 @@ DetectStages::DetectStages(const SessionOptions& options, const std::string& bac
       backend_(makeImageStage(backend, options.edges)),
       detectors_(options.detectors) {}
 
-DetectStages::Seen DetectStages::see(Frame& frame) {
+DetectStages::Seen DetectStages::see(Frame& frame, const std::function<void(Frame&)>& change) {
   mounting_.refine(frame);
   const MotionIncrement moved = motion_.increment(frame, mounting_.uncertainty());
+  if (change) change(frame);
   Seen seen;
   using Clock = std::chrono::steady_clock;
   using Milliseconds = std::chrono::duration<double, std::milli>;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -23,8 +24,9 @@ class DetectStages {
     double edges_ms = 0.0;
     double detectors_ms = 0.0;
   };
-  /// Frames in the order of the log; rewrites the mounting of hand-carried cameras.
-  Seen see(Frame& frame);
+  /// Frames in the order of the log; rewrites the mounting of hand-carried cameras. `change`, if
+  /// any, alters the frame before the image stage and the detectors see it.
+  Seen see(Frame& frame, const std::function<void(Frame&)>& change = {});
   const DetectorBank& detectors() const { return detectors_; }
 
  private:

@@ -68,5 +68,34 @@ TEST_F(Detect, SaysWhatAPictureLacks) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "seen"));
 }
 
+TEST_F(Detect, PlacesCornersAndFloorEdgesOfASimulatedCorridorHonestly) {
+  ASSERT_EQ(0, colonnade("simulate " COLONNADE_SOURCE
+                         "/rawlogs/worlds/corridor.world -o walk.rawlog --rate 1.5")
+                   .exit_code);
+  // A simulated camera has none of the systematic errors that R covers otherwise.
+  ASSERT_EQ(0, colonnade("detect walk.rawlog -o seen --picture-every 0 --score "
+                         "--thesis-thresholds 0,30,300 --thesis-rows 12 "
+                         "--set Geometry.tilt_sigma_deg=0 --set Geometry.height_sigma_m=0 "
+                         "--set Geometry.depth_bias_per_m2=0")
+                   .exit_code);
+  const auto told = nlohmann::json::parse(contentOf(folder_ / "seen/detect.json"));
+  const auto corners = told["measurements"]["depth_slope"];
+  EXPECT_GE(corners["measured"].get<int>(), 90);
+  EXPECT_GE(corners["precision"].get<double>(), 0.97);
+  EXPECT_LE(corners["place_rms_m_at_2m"].get<double>(), 0.015);
+  EXPECT_LE(corners["place_rms_m_at_3_7m"].get<double>(), 0.03);
+  EXPECT_GE(corners["nees"].get<double>(), 0.5);
+  EXPECT_LE(corners["nees"].get<double>(), 1.6);
+  EXPECT_GE(told["score"]["depth_slope"]["precision"].get<double>(), 0.95);
+  EXPECT_GE(told["score"]["depth_slope"]["recall"].get<double>(), 0.7);
+  EXPECT_GE(told["score"]["floor_edge"]["precision"].get<double>(), 0.95);
+  EXPECT_LE(told["measurements"]["floor_edge"]["place_rms_m_at_2m"].get<double>(), 0.03);
+  // What the 2012 thesis claims: the higher the threshold, the better the landmarks.
+  const auto& thresholds = told["thesis_thresholds"];
+  ASSERT_EQ(3U, thresholds.size());
+  EXPECT_LT(thresholds[0]["good_share"].get<double>(), thresholds[1]["good_share"].get<double>());
+  EXPECT_LT(thresholds[1]["good_share"].get<double>(), thresholds[2]["good_share"].get<double>());
+}
+
 }  // namespace
 }  // namespace colonnade

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "colonnade/detectors/depth_slope_pixels.hpp"
 #include "synthetic_scene.hpp"
 
 namespace colonnade::testing {
@@ -86,6 +87,81 @@ TEST(DepthSlopeDetector, RefusesWhatIsNotTheSameAtAllHeights) {
   scene.faces.push_back({{2.2, -0.3}, {2.2, 0.3}, 80.0, 0.9, 1.05});  // a box on the wall
   const auto found = DepthSlopeDetector().detect(render(scene, {}), EdgeLines{});
   EXPECT_TRUE(accepted(found, LandmarkKind::kDepthSlope).empty());
+}
+
+TEST(DepthSlopeDetector, ARoundPillarHasNoCorners) {
+  Scene scene;
+  scene.faces.push_back({{4.5, -6.0}, {4.5, 6.0}, 150.0});
+  const Eigen::Vector2d centre(2.3, 0.3);
+  constexpr int kSides = 32;
+  const auto at = [&](int i) -> Eigen::Vector2d {
+    const double angle = 2.0 * kPi * i / kSides;
+    return centre + 0.2 * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+  };
+  for (int i = kSides / 4; i < 3 * kSides / 4; ++i)  // the side one sees
+    scene.faces.push_back({at(i), at(i + 1), 90.0});
+  const Frame frame = render(scene, {}, 320, 240);
+  for (std::uint32_t seed = 1; seed <= 5; ++seed) {
+    const auto found = DepthSlopeDetector().detect(withNoise(frame, 0.0, seed), EdgeLines{});
+    EXPECT_TRUE(accepted(found, LandmarkKind::kDepthSlope).empty());
+    EXPECT_FALSE(found.empty());  // seen, and refused
+  }
+}
+
+TEST(DepthSlopeDetector, ACornerIsOnTheFrameThatStandsOutFromTheWall) {
+  Scene scene;  // a doorway beside a wall, with a frame 8 cm wide that stands out by 2 cm
+  scene.faces.push_back({{0.5, 1.0}, {1.8, 1.0}, 150.0});
+  scene.faces.push_back({{1.8, 0.98}, {1.88, 0.98}, 60.0});
+  scene.faces.push_back({{1.88, 0.98}, {1.88, 2.5}, 60.0});
+  scene.faces.push_back({{1.0, 2.5}, {5.0, 2.5}, 150.0});
+  const CameraPlace place{1.2, radians(10.0), 0.0, radians(25.0), {0.0, 0.0}};
+  const auto found =
+      DepthSlopeDetector().detect(withNoise(render(scene, place), 0.0, 3), EdgeLines{});
+  const auto good = accepted(found, LandmarkKind::kDepthSlope);
+  const Eigen::Vector2d frame(1.88, 0.98);
+  const auto* corner = nearestBearing(good, bearingOf(frame));
+  ASSERT_TRUE(corner);
+  const auto& z = corner->measurement.z;
+  const Eigen::Vector2d seen = z[1] * Eigen::Vector2d(std::cos(z[0]), std::sin(z[0]));
+  EXPECT_LT((seen - frame).norm(), 0.015) << seen.transpose();
+}
+
+TEST(SlopePixels, TheRuleOfTheThesisMarksTheNearSideOfSteps) {
+  Frame frame;
+  frame.depth_m = cv::Mat(9, 40, CV_32FC1, cv::Scalar(3.0));
+  frame.depth_m.colRange(10, 20).setTo(2.0F);
+  frame.depth_m.colRange(20, 23).setTo(0.0F);  // not measured: the next one is the neighbour
+  const SlopePixelOptions options;
+  const auto found = findSlopePixels(frame, 100.0, options);
+  ASSERT_EQ(found.size(), 2U * static_cast<std::size_t>(options.rows));
+  EXPECT_EQ(found[0].u, 10);
+  EXPECT_DOUBLE_EQ(found[0].weight, 1000.0);  // one metre in one column
+  EXPECT_EQ(found[1].u, 19);
+  EXPECT_DOUBLE_EQ(found[1].weight, 250.0);  // in four columns
+  EXPECT_EQ(findSlopePixels(frame, 900.0, options).size(), static_cast<std::size_t>(options.rows));
+  frame.depth_m.setTo(5.0F);
+  frame.depth_m.colRange(10, 20).setTo(4.0F);
+  EXPECT_TRUE(findSlopePixels(frame, 0.0, options).empty());  // beyond 3.81 m
+}
+
+TEST(SlopePixels, ColourCountsLessInTheDark) {
+  Frame frame;
+  frame.depth_m = cv::Mat(3, 40, CV_32FC1, cv::Scalar(2.01));
+  frame.depth_m.colRange(10, 20).setTo(2.0F);
+  frame.gray = cv::Mat(3, 40, CV_8UC1, cv::Scalar(200));
+  frame.colour = cv::Mat(3, 40, CV_8UC3, cv::Scalar::all(220));
+  frame.colour.colRange(10, 20).setTo(cv::Scalar::all(100));
+  SlopePixelOptions options;
+  options.rows = 1;
+  options.colour_share = 0.8;
+  const auto bright = findSlopePixels(frame, 0.0, options);
+  frame.gray.setTo(40);
+  const auto dark = findSlopePixels(frame, 0.0, options);
+  ASSERT_EQ(bright.size(), 2U);
+  ASSERT_EQ(dark.size(), 2U);
+  const double alpha = 0.8 * 200.0 / 255.0;
+  EXPECT_NEAR(bright[0].weight, alpha * 120.0 * std::sqrt(3.0) + (1.0 - alpha) * 10.0, 0.01);
+  EXPECT_LT(dark[0].weight, 0.5 * bright[0].weight);
 }
 
 TEST(WallDirectionDetector, MeasuresDirectionsModuloAQuarterTurn) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 
+#include "colonnade/detectors/depth_noise.hpp"
 #include "colonnade/detectors/levelled_camera.hpp"
 #include "statistics.hpp"
 
@@ -29,7 +30,7 @@ class Bins {
     if (counts_[bin] < rows_) values_[bin * rows_ + counts_[bin]++] = z;
   }
 
-  void medians(DepthProfile::Column& column, int index, int min_pixels) {
+  void summarise(DepthProfile::Column& column, int index, int min_pixels) {
     all_.clear();
     for (std::size_t band = 0; band < DepthProfile::kBands; ++band) {
       const std::size_t bin = static_cast<std::size_t>(index) * DepthProfile::kBands + band;
@@ -37,12 +38,36 @@ class Bins {
       const float* const first = values_.get() + bin * rows_;
       band_.assign(first, first + counts_[bin]);
       all_.insert(all_.end(), band_.begin(), band_.end());
-      column.band_z[band] = static_cast<double>(medianOf(band_));
+      column.band_z[band] = middleOf(band_).z;
     }
-    column.z = static_cast<double>(medianOf(all_));
+    const Middle middle = middleOf(all_);
+    column.z = middle.z;
+    column.pixels = middle.pixels;
   }
 
  private:
+  struct Middle {
+    double z = 0.0;
+    int pixels = 0;
+  };
+
+  /// The mean inverse depth of what lies within three sigma of the median. Depth comes in steps of
+  /// disparity that are wider than its noise averaged over a column: a median would keep the steps.
+  static Middle middleOf(std::vector<float>& values) {
+    if (values.empty()) return {};
+    const double median = static_cast<double>(medianOf(values));
+    const double reach = 3.0 * kinectDepthSigma(median);
+    double sum = 0.0;
+    int pixels = 0;
+    for (const float value : values) {
+      const auto z = static_cast<double>(value);
+      if (std::abs(z - median) > reach) continue;
+      sum += 1.0 / z;
+      ++pixels;
+    }
+    return {pixels / sum, pixels};
+  }
+
   std::size_t rows_;
   std::vector<std::size_t> counts_;
   std::unique_ptr<float[]> values_;
@@ -100,7 +125,7 @@ DepthProfile makeDepthProfile(const Frame& frame, const DepthProfileOptions& opt
   for (int i = 0; i < columns; ++i) {
     auto& column = profile.columns[static_cast<std::size_t>(i)];
     column.slope = (i - middle) / profile.focal_px;
-    bins.medians(column, i, options.min_pixels);
+    bins.summarise(column, i, options.min_pixels);
   }
   return profile;
 }

@@ -20,6 +20,9 @@ double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
+/// Rounding must not decide about faces of just that width, such as door frames.
+bool isWide(const Eigen::Vector2d& face) { return face.norm() >= kNarrowFaceM - 1e-6; }
+
 class Builder {
  public:
   explicit Builder(const World& world) : world_(world) {}
@@ -111,7 +114,7 @@ class Builder {
 
   void addFloorLine(const FloorLine& line, bool of_outline = true) {
     if (of_outline) building_.outline.push_back(line);
-    if ((line.b - line.a).norm() >= kNarrowFaceM) building_.floor_lines.push_back(line);
+    if (isWide(line.b - line.a)) building_.floor_lines.push_back(line);
   }
 
   /// Lists the edges of a profile. `closed`: the last piece meets the first.
@@ -153,7 +156,7 @@ class Builder {
     edge.p_world = pieces[after].a;
     edge.height_m = std::min(pieces[before].height_m, pieces[after].height_m);
     edge.convex = !concave;
-    edge.slope = !straight && std::min(d0.norm(), d1.norm()) >= kNarrowFaceM;
+    edge.slope = !straight && isWide(d0) && isWide(d1);
     edge.hallway = hallway;
     return edge;
   }

@@ -14,12 +14,15 @@ struct DepthSlopeOptions {
   bool enabled = true;
   double min_range_m = 1.22;  ///< thesis 2012: where a Kinect can be trusted
   double max_range_m = 3.81;
-  double min_slope_change = 1.0;    ///< of dz/dx between the two sides
   double min_turn = radians(35.0);  ///< of the surface; slopes of oblique walls are all large
-  double window_m = 0.25;           ///< of the profile on each side
-  int min_columns = 6;              ///< with depth in each window
-  double min_jump_m = 0.2;          ///< larger steps are an occluding edge
-  double separation_m = 0.15;       ///< between two corners
+  double window_m = 0.6;            ///< of the surface measured on each side
+  int min_columns = 6;              ///< of a surface, for a focal length of 580 px; 4 at least
+  double min_face_m = 0.06;         ///< of a surface
+  double min_jump_m = 0.07;         ///< larger steps are an occluding edge
+  double relief_m = 0.04;           ///< of frames and lips that stand out from a surface's end
+  double max_gap_m = 0.15;          ///< between two surfaces that meet
+  double reach_px = 2.5;            ///< of the place where surfaces meet from where they end
+  double edge_sigma_px = 0.6;       ///< of an outline, for a focal length of 580 px
   int min_bands = 2;                ///< height bands that must show the same corner
   bool concave = true;              ///< also corners that point away from the camera
   bool occlusions = true;           ///< also the near side of jumps in depth
@@ -28,12 +31,15 @@ struct DepthSlopeOptions {
     v.flag("enabled", enabled, "look for depth-slope corners");
     v.number("min_range_m", min_range_m, {0.2, 20}, "nearest corner");
     v.number("max_range_m", max_range_m, {0.2, 20}, "farthest corner");
-    v.number("min_slope_change", min_slope_change, {0.05, 20}, "of dz/dx between the two sides");
     v.angle("min_turn_deg", min_turn, {5, 120}, "of the surface at a corner");
-    v.number("window_m", window_m, {0.05, 2}, "length of surface measured on each side");
-    v.integer("min_columns", min_columns, {3, 200}, "columns with depth on each side");
-    v.number("min_jump_m", min_jump_m, {0.05, 5}, "step in depth that is an occluding edge");
-    v.number("separation_m", separation_m, {0, 2}, "least distance between corners");
+    v.number("window_m", window_m, {0.05, 5}, "length of surface measured on each side");
+    v.integer("min_columns", min_columns, {3, 200}, "of a surface, scaled by f / 580 px");
+    v.number("min_face_m", min_face_m, {0.01, 2}, "shortest surface");
+    v.number("min_jump_m", min_jump_m, {0.02, 5}, "step in depth that is an occluding edge");
+    v.number("relief_m", relief_m, {0, 0.2}, "of frames that stand out from a surface's end");
+    v.number("max_gap_m", max_gap_m, {0, 1}, "between two surfaces that meet");
+    v.number("reach_px", reach_px, {0.5, 20}, "from the end of a surface to where both meet");
+    v.number("edge_sigma_px", edge_sigma_px, {0.1, 10}, "of outlines, scaled by f / 580 px");
     v.integer("min_bands", min_bands, {1, 3}, "of three height bands that must agree");
     v.flag("concave", concave, "also corners that point away from the camera");
     v.flag("occlusions", occlusions, "also the near side of jumps in depth");

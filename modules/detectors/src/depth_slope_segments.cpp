@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "depth_slope_segments.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "colonnade/detectors/depth_noise.hpp"
+
+namespace colonnade {
+namespace {
+
+constexpr std::size_t kShortest = 3;  ///< columns of a piece
+constexpr std::size_t kStray = std::numeric_limits<std::size_t>::max();
+
+}  // namespace
+
+InverseColumns inverseColumns(const DepthProfile& profile, int band) {
+  // Rounding to columns and what remains of the steps of disparity; no average takes it out.
+  constexpr double kFloor = 0.0004;
+  InverseColumns result;
+  result.reserve(profile.columns.size());
+  for (std::size_t i = 0; i < profile.columns.size(); ++i) {
+    const auto& column = profile.columns[i];
+    const double z = band < 0 ? column.z : column.band_z[static_cast<std::size_t>(band)];
+    if (!(z > 0.0)) continue;
+    const double sigma = kinectDepthSigma(z) / (z * z);
+    const double pixels = std::max(1, band < 0 ? column.pixels : column.pixels / 3);
+    constexpr double kSharedByRows = 1.5;
+    result.push_back({column.slope, 1.0 / z,
+                      kFloor * kFloor + kSharedByRows * sigma * sigma / pixels,
+                      static_cast<int>(i)});
+  }
+  return result;
+}
+
+InverseLineFits::InverseLineFits(const InverseColumns& columns) : sums_(columns.size() + 1) {
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const auto& c = columns[i];
+    const double w = 1.0 / c.variance;
+    Sums& to = sums_[i + 1];
+    to = sums_[i];
+    to.w += w;
+    to.s += w * c.s;
+    to.q += w * c.q;
+    to.ss += w * c.s * c.s;
+    to.sq += w * c.s * c.q;
+    to.qq += w * c.q * c.q;
+  }
+}
+
+InverseLineFits::Sums InverseLineFits::between(std::size_t first, std::size_t last) const {
+  const Sums& a = sums_[first];
+  const Sums& b = sums_[last];
+  Sums n{b.w - a.w, b.s - a.s, b.q - a.q, b.ss - a.ss, b.sq - a.sq, b.qq - a.qq};
+  // About the weighted mean from here on.
+  n.ss -= n.s * n.s / n.w;
+  n.sq -= n.s * n.q / n.w;
+  n.qq -= n.q * n.q / n.w;
+  return n;
+}
+
+double InverseLineFits::cost(std::size_t first, std::size_t last) const {
+  const Sums n = between(first, last);
+  return n.ss > 0.0 ? std::max(0.0, n.qq - n.sq * n.sq / n.ss) : 0.0;
+}
+
+InverseLine InverseLineFits::fit(std::size_t first, std::size_t last) const {
+  const Sums n = between(first, last);
+  InverseLine line;
+  line.first = first;
+  line.last = last;
+  line.middle = n.s / n.w;
+  line.q_middle = n.q / n.w;
+  if (n.ss <= 0.0) return line;
+  line.b = n.sq / n.ss;
+  line.covariance(0, 0) = 1.0 / n.w;
+  line.covariance(1, 1) = 1.0 / n.ss;
+  line.cost = std::max(0.0, n.qq - n.sq * n.sq / n.ss);
+  // What the columns say of their own scatter counts, with a few of prior knowledge.
+  constexpr double kPrior = 3.0;
+  line.covariance *= (line.cost + kPrior) / (static_cast<double>(last - first) - 2.0 + kPrior);
+  return line;
+}
+
+std::vector<InverseLine> straightPieces(const InverseColumns& columns, double piece_cost,
+                                        double stray_cost) {
+  const std::size_t n = columns.size();
+  const InverseLineFits fits(columns);
+  std::vector<double> least(n + 1, 0.0);          // of the columns before
+  std::vector<std::size_t> begin(n + 1, kStray);  // of the piece that ends there
+  std::vector<std::size_t> open;                  // where the last piece may begin
+  std::vector<double> costs;
+  for (std::size_t end = 1; end <= n; ++end) {
+    least[end] = least[end - 1] + stray_cost;
+    if (end >= kShortest) open.push_back(end - kShortest);
+    std::size_t kept = 0;
+    // A start that is worse by what two stray columns cost can never win again.
+    costs.assign(open.size(), 0.0);
+    for (std::size_t k = 0; k < open.size(); ++k) {
+      costs[k] = least[open[k]] + fits.cost(open[k], end);
+      if (costs[k] + piece_cost >= least[end]) continue;
+      least[end] = costs[k] + piece_cost;
+      begin[end] = open[k];
+    }
+    for (std::size_t k = 0; k < open.size(); ++k)
+      if (costs[k] < least[end] + 2.0 * stray_cost) open[kept++] = open[k];
+    open.resize(kept);
+  }
+  std::vector<InverseLine> pieces;
+  for (std::size_t end = n; end > 0;) {
+    if (begin[end] == kStray) {
+      --end;
+      continue;
+    }
+    pieces.push_back(fits.fit(begin[end], end));
+    end = begin[end];
+  }
+  std::reverse(pieces.begin(), pieces.end());
+  return pieces;
+}
+
+}  // namespace colonnade
