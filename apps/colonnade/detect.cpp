@@ -11,10 +11,12 @@
 #include "colonnade/base/log_path.hpp"
 #include "colonnade/detectors/detection_csv.hpp"
 #include "colonnade/detectors/draw_detections.hpp"
+#include "colonnade/detectors/shade.hpp"
 #include "colonnade/frames/image_source.hpp"
 #include "detect_score.hpp"
 #include "detect_stages.hpp"
 #include "detect_tally.hpp"
+#include "detect_tracking.hpp"
 #include "detect_video.hpp"
 #include "interrupt.hpp"
 #include "known_pillar.hpp"
@@ -40,6 +42,9 @@ struct DetectArguments {
   fs::path path_map;
   DetectScoreRequest score;
   std::optional<std::uint64_t> errors;  ///< seed of what is put wrong before detection
+  bool track = false;
+  EdgeTrackingOptions tracking;
+  std::vector<int> shade_area;  ///< x, y, width, height
 };
 
 std::unique_ptr<FrameSource> openInput(const fs::path& input, const SourceOptions& options) {
@@ -59,6 +64,7 @@ class DetectRecorder {
   explicit DetectRecorder(const DetectArguments& arguments) : arguments_(arguments) {
     if (arguments.score.any()) score_.emplace(arguments.score, logStem(arguments.input).string());
     if (!arguments.video.empty()) video_.emplace(arguments.video);
+    if (arguments.track) tracking_.emplace(arguments.tracking);
     if (arguments.path_map.empty()) return;
     Config config = Config::fromFile(arguments.path_map);
     PathMapOptions options;
@@ -72,6 +78,7 @@ class DetectRecorder {
   void add(const Frame& frame, const DetectStages::Seen& seen, const Segmentation& segmentation) {
     tally_.add(seen);
     if (score_) score_->add(frame, seen.detections);
+    if (tracking_) tracking_->add(frame, seen);
     if (path_map_) path_map_->add(frame, pillar_.find(frame, seen.detections));
     const bool wanted = arguments_.picture_every > 0 && frame.index % arguments_.picture_every == 0;
     if (!wanted && !video_) return;
@@ -90,10 +97,12 @@ class DetectRecorder {
       path_map_->finish();
       path_map_->write(folder_);
     }
+    if (tracking_) writeFileAtomically(folder_ / "tracks.csv", tracking_->table());
     auto json = tally_.json();
     if (score_) score_->addTo(json);
     writeFileAtomically(folder_ / "detect.json", json.dump(2) + "\n");
-    std::printf("%s%sresults    %s\n", tally_.text().c_str(), score_ ? score_->text().c_str() : "",
+    std::printf("%s%s%sresults    %s\n", tally_.text().c_str(),
+                tracking_ ? tracking_->text().c_str() : "", score_ ? score_->text().c_str() : "",
                 folder_.c_str());
   }
   std::size_t frames() const { return tally_.frames; }
@@ -104,13 +113,25 @@ class DetectRecorder {
   DetectTally tally_;
   std::optional<DetectScore> score_;
   std::optional<DetectVideo> video_;
+  std::optional<DetectTracking> tracking_;
   std::optional<PathMap> path_map_;
   KnownPillar pillar_{0.0};
 };
 
+/// The shade of pillars from a rectangle (x, y, width, height) of the first picture.
+ShadeOptions shadeOf(FrameSource& source, const std::vector<int>& area) {
+  while (const auto frame = source.next())
+    if (!frame->gray.empty())
+      return learnShade(frame->colour, {area[0], area[1], area[2], area[3]});
+  throw Error("there is no picture to learn a shade from");
+}
+
 ExitCode detect(const DetectArguments& arguments) {
   cv::setNumThreads(1);
-  const RunOptions options = readRunOptions(arguments.config, arguments.assignments);
+  RunOptions options = readRunOptions(arguments.config, arguments.assignments);
+  if (!arguments.shade_area.empty())
+    options.session.detectors.shade =
+        shadeOf(*openInput(arguments.input, options.source), arguments.shade_area);
   const auto source = openInput(arguments.input, options.source);
   DetectStages stages(options.session, arguments.backend);
   std::optional<MountingErrors> errors;
@@ -121,6 +142,8 @@ ExitCode detect(const DetectArguments& arguments) {
   DetectRecorder recorder(arguments);
   const fs::path folder = makeResultsFolder(arguments.output, arguments.input);
   recorder.writeTo(folder);
+  if (!arguments.shade_area.empty())
+    writeFileAtomically(folder / "config.ini", effectiveConfig(options));
   Progress progress;
   const InterruptGuard interrupt;
   writeFileAtomically(folder / "detections.csv", [&](const fs::path& path) {
@@ -183,10 +206,26 @@ Action addDetect(CLI::App& verb) {
                   "its weight of colour in full light")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
+  verb.add_flag("--track", arguments->track,
+                "follow pillar edges from frame to frame; writes tracks.csv");
+  verb.add_option("--learning-frames", arguments->tracking.learning_frames,
+                  "of the learning-checking cycle, at 0.5 m/s or slower")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  verb.add_option("--checking-frames", arguments->tracking.checking_frames, "the same")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  verb.add_option(
+          "--learn-shade", arguments->shade_area,
+          "only pillars of the shade in this rectangle of the first picture: X,Y,W,H; config.ini "
+          "keeps it for later runs")
+      ->delimiter(',')
+      ->expected(4);
   verb.footer(
       "Examples:\n"
       "  colonnade detect corridor.rawlog -o seen\n"
       "  colonnade detect corridor.rawlog -o seen --picture-every 0 --video seen.avi\n"
+      "  colonnade detect hall.rawlog -o seen --learn-shade 300,100,40,200 --track\n"
       "  colonnade detect door.png -o seen --set Camera.fx_px=525 --set Camera.fy_px=525 \\\n"
       "    --set Camera.cx_px=319.5 --set Camera.cy_px=239.5 --set Camera.height_m=1.1 \\\n"
       "    --set Camera.tilt=given --set Camera.pitch_deg=5");

@@ -21,6 +21,7 @@ DetectStages::Seen DetectStages::see(Frame& frame, const std::function<void(Fram
   const MotionIncrement moved = motion_.increment(frame, mounting_.uncertainty());
   if (change) change(frame);
   Seen seen;
+  seen.T_previous_robot = moved.T_previous_robot;
   using Clock = std::chrono::steady_clock;
   using Milliseconds = std::chrono::duration<double, std::milli>;
   const auto start = Clock::now();

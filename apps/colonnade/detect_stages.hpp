@@ -20,6 +20,7 @@ class DetectStages {
   struct Seen {
     EdgeLines edges;
     Detections detections;
+    Pose2 T_previous_robot;            ///< motion since the former frame
     std::vector<std::string> lacking;  ///< why the frame shows nothing, if so
     double edges_ms = 0.0;
     double detectors_ms = 0.0;

@@ -69,8 +69,9 @@ TEST_F(Detect, SaysWhatAPictureLacks) {
 }
 
 TEST_F(Detect, PlacesCornersAndFloorEdgesOfASimulatedCorridorHonestly) {
-  ASSERT_EQ(0, colonnade("simulate " COLONNADE_SOURCE
-                         "/rawlogs/worlds/corridor.world -o walk.rawlog --rate 1.5")
+  ASSERT_EQ(0, colonnade("simulate " +
+                         (testing::sourceFolder() / "rawlogs/worlds/corridor.world").string() +
+                         " -o walk.rawlog --rate 1.5")
                    .exit_code);
   // A simulated camera has none of the systematic errors that R covers otherwise.
   ASSERT_EQ(0, colonnade("detect walk.rawlog -o seen --picture-every 0 --score "
@@ -95,6 +96,49 @@ TEST_F(Detect, PlacesCornersAndFloorEdgesOfASimulatedCorridorHonestly) {
   ASSERT_EQ(3U, thresholds.size());
   EXPECT_LT(thresholds[0]["good_share"].get<double>(), thresholds[1]["good_share"].get<double>());
   EXPECT_LT(thresholds[1]["good_share"].get<double>(), thresholds[2]["good_share"].get<double>());
+}
+
+TEST_F(Detect, FindsTheEdgesOfABuildingAndFewOthers) {
+  const auto world = testing::sourceFolder() / "rawlogs/worlds/ring.world";
+  ASSERT_EQ(0, colonnade("simulate " + world.string() +
+                         " -o ring.rawlog --width 640 --height 480 --rate 0.5 --seed 5")
+                   .exit_code);
+  for (const std::string stage : {"fixed", "opencv"}) {
+    ASSERT_EQ(0, colonnade("detect ring.rawlog -o " + stage + " --backend " + stage +
+                           " --score --track --picture-every 0")
+                     .exit_code);
+    const auto told = nlohmann::json::parse(contentOf(folder_ / stage / "detect.json"));
+    const auto& pillars = told["score"]["pillar"];
+    EXPECT_GT(pillars["wanted"].get<int>(), 20) << stage;
+    EXPECT_GE(pillars["precision"].get<double>(), 0.90) << stage;
+    EXPECT_GE(pillars["precision_wide"].get<double>(), 0.95) << stage;
+    EXPECT_GE(pillars["recall"].get<double>(), 0.88) << stage;
+    EXPECT_LE(pillars["offset_rms_px"].get<double>(), 0.5) << stage;
+    EXPECT_GT(table(folder_ / stage / "tracks.csv").size(), 20U) << stage;
+  }
+}
+
+TEST_F(Detect, LearnsTheShadeOfPillars) {
+  cv::Mat picture(480, 640, CV_8UC3, cv::Scalar(90, 90, 90));
+  picture(cv::Rect(200, 0, 60, 400)).setTo(cv::Scalar(30, 110, 230));
+  picture(cv::Rect(400, 0, 60, 400)).setTo(cv::Scalar(200, 60, 40));
+  cv::imwrite((folder_ / "pillars.png").string(), picture);
+  ASSERT_EQ(
+      0, colonnade("detect pillars.png -o seen --learn-shade 210,50,40,200" + camera_).exit_code);
+  const auto edges = [&](const std::string& folder) {
+    int count = 0;
+    for (const auto& row : table(folder_ / folder / "detections.csv"))
+      if (row[3] == "pillar" && row[4].empty()) {
+        ++count;
+        EXPECT_NEAR(std::stod(row[5]), 230.0, 35.0);
+      }
+    return count;
+  };
+  EXPECT_EQ(2, edges("seen"));
+  ASSERT_EQ(0, colonnade("detect pillars.png -o again -c seen/config.ini").exit_code);
+  EXPECT_EQ(2, edges("again"));
+  EXPECT_EQ(1,
+            colonnade("detect pillars.png -o no --learn-shade 630,50,40,200" + camera_).exit_code);
 }
 
 }  // namespace

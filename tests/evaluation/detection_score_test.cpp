@@ -47,6 +47,33 @@ TEST_F(PillarScore, FaintFarAndShortLinesNeedNotBeFoundButMay) {
   EXPECT_DOUBLE_EQ(1.0, kind.precision());
 }
 
+TEST_F(PillarScore, SaysWhatIsRightInTheStrictAndInTheWideSense) {
+  TrueImageLine foot = truth(100, 0, 200), board = truth(200, 0, 200), leg = truth(300, 0, 200);
+  foot.true_class = TrueClass::kStructure;
+  board.true_class = TrueClass::kFixed;
+  board.called = "fixture";
+  leg.true_class = TrueClass::kMovable;
+  leg.called = "furniture";
+  const auto& kind = scored(
+      {upright(100.5, 0, 200), upright(200, 0, 200), upright(300, 0, 200), upright(400, 0, 200)},
+      {foot, board, leg});
+  EXPECT_DOUBLE_EQ(0.25, kind.precision());
+  EXPECT_DOUBLE_EQ(0.5, kind.precisionWide());
+  EXPECT_EQ(0U, kind.wanted);  // none of them has to be found
+  EXPECT_DOUBLE_EQ(0.5, kind.offsetRms());
+  EXPECT_EQ(1U, kind.lie_on.at("furniture"));
+  EXPECT_EQ(1U, kind.lie_on.at("nothing"));
+}
+
+TEST_F(PillarScore, ALandmarkWithinReachCountsBeforeAMarkBesideIt) {
+  TrueImageLine mark = truth(102, 0, 200);
+  mark.true_class = TrueClass::kFixed;
+  const auto& kind = scored({upright(101.8, 0, 200)}, {mark, truth(100, 0, 200)});
+  EXPECT_DOUBLE_EQ(1.0, kind.precision());
+  EXPECT_DOUBLE_EQ(1.0, kind.recall());
+  EXPECT_NEAR(0.2, kind.offsetRms(), 1e-12);  // but it is the mark that was measured
+}
+
 TEST_F(PillarScore, ALineMustLieThereOverItsLength) {
   // Crosses the true one, lies above it, or is of another kind.
   ImageLine slanted = upright(100, 0, 200);

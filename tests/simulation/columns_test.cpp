@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <opencv2/core.hpp>
 
 #include "colonnade/base/text.hpp"
@@ -53,6 +54,7 @@ TEST_F(Columns, agreeWithTheProjectedLandmarks) {
   for (std::size_t i = 1; i < rows.size(); ++i) {
     const auto number = [&](std::size_t field) { return *parseDouble(rows[i][field]); };
     const auto frame = static_cast<std::size_t>(number(1));
+    if (rows[i][3] == "minor") continue;  // no landmark
     const auto& landmark = landmarks.at(static_cast<std::size_t>(number(2)));
     ASSERT_EQ(rows[i][3], name(landmark.kind));
     EXPECT_NEAR(number(0), truth.at(frame).stamp_s, 1e-6);
@@ -112,6 +114,36 @@ TEST_F(Columns, nameGlassAndPeopleAndGlassGivesNoDepth) {
   EXPECT_EQ(row, rows.size());
   EXPECT_GT(panes, 4);
   EXPECT_GT(people, 2);
+}
+
+TEST_F(Columns, sayWhatEveryOtherUprightLineIs) {
+  const auto world = testing::roomWorld(
+      "column 3 0.6 diameter_m=0.4\nboard wall=r.2 at_m=2.2\ntable 3.4 -0.9\n"
+      "cabinet 4.7 1.6 size_m=0.4,0.5\ncamera rate_hz=1 width_px=320 height_px=240\n");
+  const auto log = folder_ / "things.rawlog";
+  simulate(world, log, {});
+  const auto truth = readTum(folder_ / "things_ground_truth.tum");
+  const auto lens = world.camera.pinhole();
+  std::map<std::string, int> kinds;
+  const auto rows = rowsOf(folder_ / "things_columns.csv");
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    ++kinds[rows[i][3]];
+    if (rows[i][3] != "round") continue;
+    // The outline of a round pillar: a line of sight that touches the circle.
+    const auto number = [&](std::size_t field) { return *parseDouble(rows[i][field]); };
+    const auto& T_world_body = truth.at(static_cast<std::size_t>(number(1))).T_world_body;
+    const Eigen::Isometry3d T_world_camera = T_world_body * world.camera.T_robot_camera();
+    const Eigen::Vector3d ray = T_world_camera.linear() * lens.ray(number(4), number(5));
+    const Eigen::Vector2d to_axis =
+        Eigen::Vector2d(3.0, 0.6) - T_world_camera.translation().head<2>();
+    const Eigen::Vector2d way = ray.head<2>().normalized();
+    EXPECT_NEAR(0.2, std::abs(way.x() * to_axis.y() - way.y() * to_axis.x()), 0.006);
+    EXPECT_NEAR(number(9), to_axis.dot(way), 0.06);
+  }
+  EXPECT_EQ(kinds["round"], 2 * static_cast<int>(truth.size()));
+  EXPECT_GE(kinds["fixture"], 2 * static_cast<int>(truth.size()));    // the board
+  EXPECT_GE(kinds["furniture"], 4 * static_cast<int>(truth.size()));  // legs
+  EXPECT_GE(kinds["cabinet"], static_cast<int>(truth.size()));
 }
 
 }  // namespace

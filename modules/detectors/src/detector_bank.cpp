@@ -19,7 +19,7 @@ void append(Detections& all, Detections&& some) {
 
 DetectorBank::DetectorBank(const DetectorOptions& options)
     : options_(options),
-      pillars_(options.pillars, options.geometry, options.lines),
+      pillars_(options.pillars, options.geometry, options.lines, options.shade),
       floor_edges_(options.floor_edges, options.geometry, options.lines),
       depth_slopes_(options.depth_slopes, options.depth_profile, options.geometry),
       walls_(options.wall_directions, options.depth_profile),

@@ -6,9 +6,12 @@
 #include <cmath>
 
 #include "colonnade/detectors/levelled_camera.hpp"
+#include "colonnade/detectors/pillar_pairs.hpp"
 #include "colour_sampling.hpp"
-#include "pillar_pairs.hpp"
+#include "line_refinement.hpp"
 #include "pillar_range.hpp"
+#include "pillar_seeds.hpp"
+#include "pillar_span.hpp"
 
 namespace colonnade {
 namespace {
@@ -78,6 +81,27 @@ bool isSameLandmark(const Detection& a, const Detection& b, double separation) {
   return std::abs(m.z[1] - n.z[1]) < 0.1 + 3.0 * std::sqrt(m.R(1, 1) + n.R(1, 1));
 }
 
+/// The rows of a line and of all others that lie on it, above and below, with the same gradient.
+/// Not what lies below the floor at the line's range: a joint or a reflection there.
+SeenSpan spanOf(const RefinedLine& line, const RefinedLines& lines, const LevelledCamera& camera,
+                std::optional<double> range_m) {
+  constexpr double kBeside_px = 2.5;
+  constexpr double kBelowFloor_m = 0.15;
+  SeenSpan span{line.begin, line.end};
+  for (const auto& other : lines) {
+    if (!other.steep || other.gradient_sign != line.gradient_sign) continue;
+    const auto apart = [&](double s) { return std::abs(other.across(s) - line.across(s)); };
+    if (std::max(apart(other.begin), apart(other.end)) > kBeside_px) continue;
+    const Eigen::Vector3d lowest = camera.ray(line.at(other.end));
+    if (range_m &&
+        camera.height() + *range_m * lowest.z() / lowest.head<2>().norm() < -kBelowFloor_m)
+      continue;
+    span.top = std::min(span.top, other.begin);
+    span.bottom = std::max(span.bottom, other.end);
+  }
+  return span;
+}
+
 std::string reasonToRefuse(PillarRange::Verdict verdict, double length_px,
                            const PillarOptions& options) {
   switch (verdict) {
@@ -99,11 +123,15 @@ Detections PillarDetector::detect(const Frame& frame, const EdgeLines& edges) co
   return detect(frame, refineLines(frame.gray, edges, lines_));
 }
 
-Detections PillarDetector::detect(const Frame& frame, const RefinedLines& lines) const {
+Detections PillarDetector::detect(const Frame& frame, const RefinedLines& given) const {
   Detections detections;
   if (frame.gray.empty()) return detections;
   const LevelledCamera camera(frame);
   const DepthView depth(frame, camera);
+  RefinedLines lines = given;
+  const RefinedLines faint = faintUprights(frame.gray, camera, options_, lines_);
+  lines.insert(lines.end(), faint.begin(), faint.end());
+  lines = withoutDuplicates(std::move(lines), lines_.duplicate_px);
   for (const auto& line : lines) {  // longest first
     if (!line.steep || line.length() < options_.min_length_px) continue;
     if (angleFromVertical(camera, line) > options_.vertical_tolerance) continue;
@@ -116,6 +144,13 @@ Detections PillarDetector::detect(const Frame& frame, const RefinedLines& lines)
     detection.appearance.left = meanColourBeside(frame, line, line.begin, line.end, -1);
     detection.appearance.right = meanColourBeside(frame, line, line.begin, line.end, 1);
     detection.refusal = reasonToRefuse(range.verdict, line.length(), options_);
+    if (detection.accepted() && isShade(frame.gray, line))
+      detection.refusal = "a shade without an edge";
+    if (detection.accepted()) {
+      const auto seen_m = range.range_m > 0.0 ? std::optional(range.range_m) : std::nullopt;
+      detection.refusal = reasonAgainstSpan(frame.gray, depth, camera, line,
+                                            spanOf(line, lines, camera, seen_m), seen_m, options_);
+    }
     if (detection.accepted() &&
         std::any_of(detections.begin(), detections.end(), [&](const Detection& longer) {
           return longer.accepted() && isSameLandmark(detection, longer, options_.separation);
@@ -124,7 +159,8 @@ Detections PillarDetector::detect(const Frame& frame, const RefinedLines& lines)
     }
     detections.push_back(detection);
   }
-  pairPillars(detections, options_);
+  refuseFalseEdges(detections, shade_);
+  pairPillars(detections, options_, shade_);
   return detections;
 }
 

@@ -8,7 +8,7 @@
 #include <optional>
 #include <tuple>
 
-#include "line_walker.hpp"
+#include "line_refinement.hpp"
 
 namespace colonnade {
 namespace {
@@ -177,13 +177,8 @@ bool isFitted(const Straight& line, const Samples& samples, bool steep, int sign
   });
 }
 
-void refineSeed(const cv::Mat& gray, const cv::Mat& edges, const HoughLine& seed,
-                const LineRefinementOptions& options, RefinedLines& lines) {
-  const double theta = radians(seed.theta_index);
-  const double c = std::cos(theta);
-  const double s = std::sin(theta);
-  const bool steep = std::abs(c) >= std::abs(s);
-  const Straight guess{0.0, seed.rho_bin / (steep ? c : s), steep ? -s / c : -c / s};
+void refineGuess(const cv::Mat& gray, const cv::Mat& edges, bool steep, const Straight& guess,
+                 const LineRefinementOptions& options, RefinedLines& lines) {
   const Walker walker(gray, edges, steep);
   const SignedSamples around = walker.collect(guess, options.search_px);
   for (const int sign : {1, -1}) {
@@ -205,13 +200,24 @@ void refineSeed(const cv::Mat& gray, const cv::Mat& edges, const HoughLine& seed
   }
 }
 
+void refineSeed(const cv::Mat& gray, const cv::Mat& edges, const HoughLine& seed,
+                const LineRefinementOptions& options, RefinedLines& lines) {
+  const double theta = radians(seed.theta_index);
+  const double c = std::cos(theta);
+  const double s = std::sin(theta);
+  const bool steep = std::abs(c) >= std::abs(s);
+  const Straight guess{0.0, seed.rho_bin / (steep ? c : s), steep ? -s / c : -c / s};
+  refineGuess(gray, edges, steep, guess, options, lines);
+}
+
 }  // namespace
 
-RefinedLines refineLines(const cv::Mat& gray, const EdgeLines& edges,
-                         const LineRefinementOptions& options) {
-  if (gray.empty() || gray.type() != CV_8UC1 || edges.edges.size() != gray.size()) return {};
-  RefinedLines lines;
-  for (const auto& seed : edges.lines) refineSeed(gray, edges.edges, seed, options, lines);
+void refineSteep(const cv::Mat& gray, const cv::Mat& edges, const Straight& guess,
+                 const LineRefinementOptions& options, RefinedLines& lines) {
+  refineGuess(gray, edges, true, guess, options, lines);
+}
+
+RefinedLines withoutDuplicates(RefinedLines lines, double duplicate_px) {
   const auto rank = [](const RefinedLine& line) {
     return std::tuple(-line.length(), line.steep, line.offset, line.begin);
   };
@@ -220,12 +226,20 @@ RefinedLines refineLines(const cv::Mat& gray, const EdgeLines& edges,
   RefinedLines kept;
   for (const auto& line : lines) {
     if (std::none_of(kept.begin(), kept.end(), [&](const RefinedLine& longer) {
-          return isDuplicate(line, longer, options.duplicate_px);
+          return isDuplicate(line, longer, duplicate_px);
         })) {
       kept.push_back(line);
     }
   }
   return kept;
+}
+
+RefinedLines refineLines(const cv::Mat& gray, const EdgeLines& edges,
+                         const LineRefinementOptions& options) {
+  if (gray.empty() || gray.type() != CV_8UC1 || edges.edges.size() != gray.size()) return {};
+  RefinedLines lines;
+  for (const auto& seed : edges.lines) refineSeed(gray, edges.edges, seed, options, lines);
+  return withoutDuplicates(std::move(lines), options.duplicate_px);
 }
 
 }  // namespace colonnade

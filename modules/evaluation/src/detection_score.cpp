@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <tuple>
 
 #include "colonnade/base/csv_table.hpp"
 #include "colonnade/base/error.hpp"
@@ -16,6 +17,18 @@ namespace {
 std::optional<LandmarkKind> kindOfName(const std::string& text) {
   for (int i = 0; i < kLandmarkKinds; ++i)
     if (text == name(static_cast<LandmarkKind>(i))) return static_cast<LandmarkKind>(i);
+  return std::nullopt;
+}
+
+/// The kind and class of a row; nothing for what is no line, such as a person.
+std::optional<std::pair<LandmarkKind, TrueClass>> meaningOf(const std::string& text) {
+  if (const auto kind = kindOfName(text)) return std::pair(*kind, TrueClass::kWanted);
+  const auto upright = [](TrueClass what) { return std::pair(LandmarkKind::kPillarEdge, what); };
+  if (text == "round") return upright(TrueClass::kWanted);
+  if (text == "minor") return upright(TrueClass::kStructure);
+  if (text == "furniture") return upright(TrueClass::kMovable);
+  for (const char* fixed : {"fixture", "mark", "leaf", "cabinet"})
+    if (text == fixed) return upright(TrueClass::kFixed);
   return std::nullopt;
 }
 
@@ -46,7 +59,7 @@ std::optional<double> offsetAcross(const ImageLine& seen, const ImageLine& there
 bool isWanted(const TrueImageLine& line, const DetectionScoreOptions& options) {
   const bool by_depth = line.kind == LandmarkKind::kDepthSlope;
   const double farthest_m = by_depth ? options.max_corner_distance_m : options.max_distance_m;
-  return line.visible_px >= options.min_visible_px &&
+  return line.true_class == TrueClass::kWanted && line.visible_px >= options.min_visible_px &&
          (by_depth || line.contrast >= options.min_contrast) &&
          (!line.distance_m || *line.distance_m <= farthest_m);
 }
@@ -87,10 +100,11 @@ TrueImageLines readColumnsCsv(const std::filesystem::path& path) {
   TrueImageLines lines;
   while (const auto row = table.next()) {
     auto& frame = lines[microseconds(row->number("stamp"))];
-    const auto kind = kindOfName(row->text("kind"));
-    if (!kind) continue;  // a person, glass: nothing to find
+    const auto meaning = meaningOf(row->text("kind"));
+    if (!meaning) continue;  // a person, glass: nothing to find
     TrueImageLine line;
-    line.kind = *kind;
+    std::tie(line.kind, line.true_class) = *meaning;
+    line.called = row->text("kind");
     line.a_px = {row->number("u0"), row->number("v0")};
     line.b_px = {row->number("u1"), row->number("v1")};
     if (!row->empty("range_m")) line.distance_m = row->number("range_m");
@@ -110,18 +124,30 @@ void DetectionScore::add(const std::vector<ImageLine>& detected,
     ++kind.detected;
     std::optional<double> nearest;
     std::size_t nearest_line = 0;
+    double closest = options_.tolerance_px;  // to any line at rest: what it really is
+    const auto rank = [&](std::size_t i) {   // what counts most, then what lies nearest
+      return there[i].true_class > TrueClass::kStructure;
+    };
     for (std::size_t i = 0; i < there.size(); ++i) {
       if (there[i].kind != seen.kind) continue;
       const auto offset = offsetAcross(seen, there[i], options_);
       if (!offset) continue;
       found[i] = true;
-      if (nearest && std::abs(*nearest) <= std::abs(*offset)) continue;
+      if (there[i].true_class <= TrueClass::kFixed) closest = std::min(closest, std::abs(*offset));
+      if (nearest && std::pair(rank(nearest_line), std::abs(*nearest)) <=
+                         std::pair(rank(i), std::abs(*offset)))
+        continue;
       nearest = offset;
       nearest_line = i;
     }
+    ++kind.lie_on[!nearest                             ? "nothing"
+                  : there[nearest_line].called.empty() ? name(seen.kind)
+                                                       : there[nearest_line].called];
     if (!nearest) continue;
+    kind.right_wide += there[nearest_line].true_class <= TrueClass::kFixed ? 1 : 0;
+    if (there[nearest_line].true_class > TrueClass::kStructure) continue;
     ++kind.right;
-    kind.offset_squares += *nearest * *nearest;
+    kind.offset_squares += closest * closest;
     // The distance of a floor edge is across the line, the truth's to the middle of what is seen.
     if (seen.kind == LandmarkKind::kFloorEdge) continue;
     if (!seen.distance_m || !there[nearest_line].distance_m) continue;
@@ -138,6 +164,7 @@ void DetectionScore::add(const std::vector<ImageLine>& detected,
 }
 
 double DetectionScore::Kind::precision() const { return share(right, detected); }
+double DetectionScore::Kind::precisionWide() const { return share(right_wide, detected); }
 double DetectionScore::Kind::recall() const { return share(found, wanted); }
 double DetectionScore::Kind::offsetRms() const {
   return right == 0 ? 0.0 : std::sqrt(offset_squares / static_cast<double>(right));
@@ -156,10 +183,12 @@ nlohmann::ordered_json toJson(const DetectionScore& score) {
     json[name(static_cast<LandmarkKind>(i))] = {
         {"detected", kind.detected},
         {"precision", orNull(kind.detected > 0, kind.precision())},
+        {"precision_wide", orNull(kind.detected > 0, kind.precisionWide())},
         {"wanted", kind.wanted},
         {"recall", orNull(kind.wanted > 0, kind.recall())},
         {"offset_rms_px", orNull(kind.right > 0, kind.offsetRms())},
-        {"distance_rms_m", orNull(kind.distances > 0, kind.distanceRms())}};
+        {"distance_rms_m", orNull(kind.distances > 0, kind.distanceRms())},
+        {"lie_on", kind.lie_on}};
   }
   return json;
 }
@@ -178,12 +207,19 @@ std::string toText(const DetectionScore& score) {
     const auto orDash = [](bool known, double value, int decimals) {
       return known ? formatFixed(value, decimals) : std::string("-");
     };
-    line += "precision " + orDash(kind.detected > 0, kind.precision(), 3) + " of " +
-            std::to_string(kind.detected) + ", recall " +
+    line += "precision " + orDash(kind.detected > 0, kind.precision(), 3) +
+            (kind.right_wide > kind.right ? " (" + formatFixed(kind.precisionWide(), 3) +
+                                                " with boards, panels, cabinets, open doors)"
+                                          : "") +
+            " of " + std::to_string(kind.detected) + ", recall " +
             orDash(kind.wanted > 0, kind.recall(), 3) + " of " + std::to_string(kind.wanted) +
             ", offset " + orDash(kind.right > 0, kind.offsetRms(), 2) + " px rms, distance " +
             orDash(kind.distances > 0, kind.distanceRms(), 3) + " m rms\n";
     text += line;
+    if (kind.right == kind.detected) continue;
+    text += "            lie on";
+    for (const auto& [what, count] : kind.lie_on) text += " " + what + " " + std::to_string(count);
+    text += "\n";
   }
   return text;
 }

@@ -31,8 +31,9 @@ class Builder {
     bounds();
     for (std::size_t i = 0; i < world_.walls.size(); ++i) addWall(i);
     for (const auto& solid : solidsOf(world_)) addSolid(solid);
-    for (const auto& door : world_.doors) addFaces(doorHead(world_, door));
-    for (const auto& board : world_.boards) addFaces(boardFaces(world_, board));
+    for (const auto& door : world_.doors) addFaces(doorHead(world_, door), Belonging::kFixture);
+    for (const auto& board : world_.boards)
+      addFaces(boardFaces(world_, board), Belonging::kFixture);
     addWallCorners();
     addFloorAndCeiling();
     for (auto& face : building_.faces) face.surface = world_.materials[face.material].surface;
@@ -67,7 +68,7 @@ class Builder {
       const bool has_board = piece.skirting && wall.skirting_m > 0.0;
       if (has_board && wall.skirting_out_m > 0.0) {
         const auto [a, b] = board.frontOf(piece.a, piece.b);
-        addFaces(board.faces(piece.a, piece.b));
+        addFaces(board.faces(piece.a, piece.b), Belonging::kBuilding);
         addFloorLine({a, b, wall.hallway, piece.height_m});
       } else {
         addFloorLine({piece.a, piece.b, wall.hallway, piece.height_m});
@@ -90,6 +91,7 @@ class Builder {
       const auto& piece = profile.pieces.back();
       building_.faces.push_back(
           uprightFace(piece.a, piece.b, solid.bottom_m, solid.top_m, solid.material));
+      building_.faces.back().belonging = solid.belonging;
       if (!solid.standing()) continue;
       const FloorLine line{piece.a, piece.b, -1, solid.top_m};
       building_.outline.push_back(line);
@@ -100,10 +102,11 @@ class Builder {
     building_.faces.push_back(lid(solid, solid.top_m));
     if (!solid.standing()) building_.faces.push_back(lid(solid, solid.bottom_m));
     profile.partners = {{0, 1}, {2, 3}};
-    if (solid.standing()) addEdges(profile, true, -1);
+    if (solid.standing()) addEdges(profile, true, -1, solid.belonging);
   }
 
-  void addFaces(const std::vector<Face>& faces) {
+  void addFaces(std::vector<Face> faces, Belonging belonging) {
+    for (auto& face : faces) face.belonging = belonging;
     building_.faces.insert(building_.faces.end(), faces.begin(), faces.end());
   }
 
@@ -118,7 +121,8 @@ class Builder {
   }
 
   /// Lists the edges of a profile. `closed`: the last piece meets the first.
-  void addEdges(const Profile& profile, bool closed, int hallway) {
+  void addEdges(const Profile& profile, bool closed, int hallway,
+                Belonging belonging = Belonging::kBuilding) {
     const auto& pieces = profile.pieces;
     std::vector<std::optional<std::size_t>> edge_of_piece(pieces.size());
     for (std::size_t i = 0; i < pieces.size(); ++i) {
@@ -128,6 +132,7 @@ class Builder {
       if (!edge) continue;
       edge_of_piece[i] = building_.edges.size();
       building_.edges.push_back(*edge);
+      building_.edges.back().belonging = belonging;
     }
     for (const auto& [first, second] : profile.partners) {
       if (first >= pieces.size() || second >= pieces.size()) continue;

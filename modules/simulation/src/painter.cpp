@@ -13,8 +13,6 @@ namespace {
 
 constexpr double kLightCellM = 0.06;
 constexpr double kBlotchCellM = 0.02;
-constexpr double kJointM = 0.008;
-
 /// Distance into a period of length `tile`, from the nearer joint.
 double fromJoint(double x, double tile) {
   const double phase = x - tile * std::floor(x / tile);
@@ -55,12 +53,12 @@ bool onDecal(double along_m, double up_m, std::uint32_t seed) {
 /// A door leaf: two sunk panels and a handle.
 bool onPanelLine(double along_m, double up_m, const Eigen::Vector2d& size) {
   const double x = std::abs(along_m - 0.5 * size.x());
-  const double half = 0.5 * size.x() - 0.14;
+  const double half = panelHalfWidth(size.x());
   if (half < 0.05) return false;
-  for (const auto& [low, high] :
-       {std::pair{0.18, 0.42 * size.y()}, {0.50 * size.y(), size.y() - 0.15}}) {
+  for (const auto& [low, high] : panelHeights(size.y())) {
     const bool inside = x < half && up_m > low && up_m < high;
-    const bool deep = x < half - 0.015 && up_m > low + 0.015 && up_m < high - 0.015;
+    const bool deep =
+        x < half - kPanelLineM && up_m > low + kPanelLineM && up_m < high - kPanelLineM;
     if (inside && !deep) return true;
   }
   return std::abs(along_m - 0.09) < 0.06 && std::abs(up_m - 1.02) < 0.015;

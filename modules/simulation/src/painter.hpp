@@ -2,13 +2,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <opencv2/core/mat.hpp>
+#include <utility>
 
 #include "colonnade/simulation/building.hpp"
 #include "light.hpp"
 
 namespace colonnade {
+
+constexpr double kJointM = 0.008;      ///< width of the joints of tiles and sheets
+constexpr double kPanelLineM = 0.015;  ///< width of the lines around a leaf's sunk panels
+
+/// From the middle of a panelled face to the outer side of the line around its panels; below 0.05
+/// there are none.
+constexpr double panelHalfWidth(double face_width_m) { return 0.5 * face_width_m - 0.14; }
+/// Lower and upper end of the two panels.
+constexpr std::array<std::pair<double, double>, 2> panelHeights(double face_height_m) {
+  return {{{0.18, 0.42 * face_height_m}, {0.50 * face_height_m, face_height_m - 0.15}}};
+}
 
 /// Paints a face, CV_8UC3 (BGR), row 0 at its top: the pattern of its material, plaster noise and
 /// the light that falls on it. The same face always gets the same picture.

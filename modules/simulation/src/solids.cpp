@@ -37,6 +37,7 @@ Solid solidOf(const Pillar& pillar) {
   Solid solid{
       "the pillar of " + pillar.where, {}, 0.0, pillar.height_m, pillar.material, pillar.round};
   const Place place{pillar.centre, pillar.turn};
+  solid.belonging = pillar.round ? Belonging::kRound : Belonging::kBuilding;
   if (!pillar.round) {
     solid.outline = rectangle(place, {0, 0}, pillar.size);
     return solid;
@@ -122,9 +123,17 @@ std::vector<Solid> solidsOf(const World& world) {
   std::vector<Solid> solids;
   for (const auto& pillar : world.pillars) solids.push_back(solidOf(pillar));
   for (const auto& door : world.doors) {
-    if (door.leaf) solids.push_back(leafOf(door, world.walls[door.wall]));
+    if (!door.leaf) continue;
+    solids.push_back(leafOf(door, world.walls[door.wall]));
+    solids.back().belonging = Belonging::kLeaf;
   }
-  for (const auto& piece : world.furniture) addFurniture(solids, piece);
+  for (const auto& piece : world.furniture) {
+    const std::size_t first = solids.size();
+    addFurniture(solids, piece);
+    const bool cabinet = piece.kind == Furniture::Kind::kCabinet;
+    for (std::size_t i = first; i < solids.size(); ++i)
+      solids[i].belonging = cabinet ? Belonging::kCabinet : Belonging::kFurniture;
+  }
   return solids;
 }
 

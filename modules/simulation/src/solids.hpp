@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "colonnade/simulation/world.hpp"
+#include "colonnade/simulation/building.hpp"
 
 namespace colonnade {
 
@@ -18,6 +18,7 @@ struct Solid {
   double top_m = 0.0;
   std::size_t material = 0;
   bool round = false;  ///< the outline stands for a circle: its corners are no edges
+  Belonging belonging = Belonging::kBuilding;
 
   bool standing() const { return bottom_m == 0.0; }
 };

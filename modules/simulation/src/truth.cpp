@@ -7,6 +7,7 @@
 
 #include "line_walk.hpp"
 #include "surfaces.hpp"
+#include "upright_lines.hpp"
 
 namespace colonnade {
 namespace {
@@ -54,15 +55,14 @@ double contrastOf(const cv::Mat& gray, const ImageLine& line, const Piece& piece
   return count > 0 ? sum / count : 0.0;
 }
 
-SeenColumn columnOf(const LandmarkRecord& landmark, const ImageLine& line, const Piece& piece,
-                    const cv::Mat& gray, const PinholeCamera& camera,
+SeenColumn columnOf(const std::string& kind, int id, bool upright, const ImageLine& line,
+                    const Piece& piece, const cv::Mat& gray, const PinholeCamera& camera,
                     const Eigen::Isometry3d& T_world_camera) {
   SeenColumn column;
-  column.kind = name(landmark.kind);
-  column.id = number(landmark.id);
+  column.kind = kind;
+  column.id = id;
   column.from = line.at(piece.first);
   column.to = line.at(piece.last);
-  const bool upright = landmark.kind != LandmarkKind::kFloorEdge;
   if (upright ? column.from.y() > column.to.y() : column.from.x() > column.to.x()) {
     std::swap(column.from, column.to);
   }
@@ -105,13 +105,17 @@ LandmarkRecord floorRecord(const FloorLine& line, std::size_t id) {
 }  // namespace
 
 Truth::Truth(const World& world, const Building& building)
-    : camera_(world.camera.pinhole()), range_m_(world.depth.range_max_m) {
+    : camera_(world.camera.pinhole()),
+      range_m_(world.depth.range_max_m),
+      others_(uprightLinesOf(world, building)),
+      rounds_(roundOutlinesOf(world)) {
   const auto upright = [&](const VerticalEdge& edge) {
     const auto& p = edge.p_world;
     outlines_.push_back({{p.x(), p.y(), 0.0}, {p.x(), p.y(), edge.height_m}});
   };
   for (const auto& edge : building.edges) {
     landmarks_.push_back(uprightRecord(edge, LandmarkKind::kPillarEdge, landmarks_.size()));
+    kinds_.push_back(kindOf(edge.belonging));
     if (edge.partner) {
       landmarks_.back().pair_id = LandmarkId{static_cast<std::int32_t>(*edge.partner)};
     }
@@ -119,14 +123,18 @@ Truth::Truth(const World& world, const Building& building)
   }
   for (const auto& line : building.floor_lines) {
     landmarks_.push_back(floorRecord(line, landmarks_.size()));
+    kinds_.push_back(name(LandmarkKind::kFloorEdge));
     outlines_.push_back({{line.a.x(), line.a.y(), 0.0}, {line.b.x(), line.b.y(), 0.0}});
   }
   for (const auto& edge : building.edges) {
     if (!edge.slope) continue;
     landmarks_.push_back(uprightRecord(edge, LandmarkKind::kDepthSlope, landmarks_.size()));
+    kinds_.push_back(name(LandmarkKind::kDepthSlope));
     upright(edge);
   }
 }
+
+Truth::~Truth() = default;
 
 std::vector<SeenColumn> Truth::observe(const Surfaces& surfaces, const cv::Mat& gray,
                                        const Eigen::Isometry3d& T_world_camera, double stamp_s) {
@@ -150,7 +158,40 @@ std::vector<SeenColumn> Truth::observe(const Surfaces& surfaces, const cv::Mat& 
     }
     const Piece piece = longestPiece(visible);
     if (step_px * (piece.last - piece.first) < kShortestPx) continue;
-    columns.push_back(columnOf(landmark, *line, piece, gray, camera_, T_world_camera));
+    columns.push_back(columnOf(kinds_[i], number(landmark.id),
+                               landmark.kind != LandmarkKind::kFloorEdge, *line, piece, gray,
+                               camera_, T_world_camera));
+  }
+  const auto projected = [&](const Eigen::Vector2d& p, double bottom_m, double top_m) {
+    const auto at = [&](double z) -> Eigen::Vector3d {
+      return T_camera_world * Eigen::Vector3d(p.x(), p.y(), z);
+    };
+    return projectedLine(at(bottom_m), at(top_m), camera_);
+  };
+  const auto see = [&](const std::string& kind, int id, const ImageLine& line,
+                       const std::vector<bool>& visible) {
+    const double step_px = (line.to - line.from).norm() / line.steps;
+    const Piece piece = longestPiece(visible);
+    if (step_px * (piece.last - piece.first) < kShortestPx) return;
+    columns.push_back(columnOf(kind, id, true, line, piece, gray, camera_, T_world_camera));
+  };
+  for (std::size_t i = 0; i < others_.size(); ++i) {
+    const auto& other = others_[i];
+    if (const auto line = projected(other.p_world, other.bottom_m, other.top_m))
+      see(other.kind, static_cast<int>(i), *line, unhiddenSteps(*line, surfaces));
+  }
+  for (std::size_t i = 0; i < rounds_.size(); ++i) {
+    const auto ends = silhouette(rounds_[i], T_world_camera.translation().head<2>());
+    for (std::size_t side = 0; side < ends.size(); ++side) {
+      const auto line = projected(ends[side].p_world, 0.0, rounds_[i].top_m);
+      const auto inner = projected(ends[side].p_inner, 0.0, rounds_[i].top_m);
+      if (!line || !inner) continue;
+      const auto seen = unhiddenSteps(*inner, surfaces);
+      std::vector<bool> visible(static_cast<std::size_t>(line->steps) + 1);
+      for (std::size_t step = 0; step < visible.size(); ++step)
+        visible[step] = seen[step * (seen.size() - 1) / (visible.size() - 1)];
+      see(kindOf(Belonging::kRound), static_cast<int>(2 * i + side), *line, visible);
+    }
   }
   return columns;
 }

@@ -21,6 +21,7 @@ struct DetectorOptions {
   GeometryOptions geometry;
   LineRefinementOptions lines;
   PillarOptions pillars;
+  ShadeOptions shade;
   FloorEdgeOptions floor_edges;
   DepthProfileOptions depth_profile;
   DepthSlopeOptions depth_slopes;
@@ -33,6 +34,7 @@ struct DetectorOptions {
     take(geometry);
     take(lines);
     take(pillars);
+    take(shade);
     take(floor_edges);
     take(depth_profile);
     take(depth_slopes);

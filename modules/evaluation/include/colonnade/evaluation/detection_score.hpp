@@ -26,8 +26,19 @@ struct ImageLine {
 /// The part of a line inside a picture; nothing where it passes by (Liang and Barsky 1984).
 std::optional<ImageLine> clipped(const ImageLine& line, int width_px, int height_px);
 
+/// What a line in a picture is worth as a landmark.
+enum class TrueClass {
+  kWanted,     ///< a landmark: right, and missed where it is not found (kinds of landmarks; round)
+  kStructure,  ///< an edge of the building beside a listed one: right, not missed (minor)
+  kFixed,      ///< vertical and at rest, but no edge that stands on the floor and stays where it is
+               ///< (fixture, mark, leaf, cabinet): right in the wide sense only
+  kMovable,    ///< furniture: wrong
+};
+
 /// What really is in that picture.
 struct TrueImageLine : ImageLine {
+  TrueClass true_class = TrueClass::kWanted;
+  std::string called;  ///< in the file
   int landmark = -1;
   double visible_px = 0.0;
   double contrast = 0.0;  ///< gray levels across it
@@ -49,9 +60,12 @@ struct DetectionScoreOptions {
 };
 
 /// Scores detections of one kind over many pictures.
-///   precision: share of the detections that lie on a true line of their kind, however faint
+///   precision: share of the detections that lie on a true line of their kind, however faint:
+///     for pillars an edge of the building that stands on the floor, or the outline of a round one
+///   precision_wide: pillars on any line that is vertical in space and stays where it is counted
+///     as right too: boards, joints, panels, open doors, cabinets. Never table legs or people
 ///   recall: share of the true lines to be found that have a detection
-///   offset_rms_px: across the line, of detections and the true lines nearest to them
+///   offset_rms_px: across the line, of right detections from the nearest line at rest
 class DetectionScore {
  public:
   explicit DetectionScore(const DetectionScoreOptions& options = {}) : options_(options) {}
@@ -60,13 +74,15 @@ class DetectionScore {
   void add(const std::vector<ImageLine>& detected, const std::vector<TrueImageLine>& there);
 
   struct Kind {
-    std::size_t detected = 0, right = 0;
+    std::size_t detected = 0, right = 0, right_wide = 0;
     std::size_t wanted = 0, found = 0;
     double offset_squares = 0.0;
     double distance_squares = 0.0;
     std::size_t distances = 0;
+    std::map<std::string, std::size_t> lie_on;  ///< detections by what is there; "nothing"
 
     double precision() const;
+    double precisionWide() const;
     double recall() const;
     double offsetRms() const;
     double distanceRms() const;

@@ -11,6 +11,16 @@
 
 namespace colonnade {
 
+/// What a thing is to a map: part of the building, or something that may be elsewhere tomorrow.
+enum class Belonging {
+  kBuilding,   ///< walls, pilasters, pillars, door frames, closed doors
+  kRound,      ///< round pillars
+  kFixture,    ///< hangs on a wall or in an opening: boards, lintels, rims of glass leaves
+  kLeaf,       ///< of an open door
+  kCabinet,    ///< stands as long as nobody moves it
+  kFurniture,  ///< tables, chairs, bins
+};
+
 /// A painted rectangle: origin + s along + t up, s and t in [0, 1]. Its front is the side from
 /// which `along` points right and `up` up. Metres, world.
 struct Face {
@@ -22,6 +32,7 @@ struct Face {
   std::size_t skirting_material = 0;
   bool glows = false;  ///< a lamp: not lit by others
   Surface surface = Surface::kOpaque;
+  Belonging belonging = Belonging::kBuilding;
 
   Eigen::Vector3d normal() const { return along.cross(up).normalized(); }
 };
@@ -35,6 +46,7 @@ struct VerticalEdge {
   bool slope = false;
   std::optional<std::size_t> partner;  ///< the other edge of the same pillar or door
   int hallway = -1;
+  Belonging belonging = Belonging::kBuilding;
 };
 
 /// A line in which a wall meets the floor.

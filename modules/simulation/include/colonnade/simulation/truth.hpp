@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <opencv2/core/mat.hpp>
+#include <string>
 #include <vector>
 
 #include "colonnade/filter/landmark_map.hpp"
@@ -12,7 +13,9 @@
 
 namespace colonnade {
 
+struct RoundOutline;
 struct Surfaces;
+struct UprightLine;
 
 /// The landmarks a building really has, how often a camera could have seen each, and where.
 ///   pillar      every vertical edge that stands on the floor; pair_id: the mirrored edge of the
@@ -24,9 +27,10 @@ struct Surfaces;
 class Truth {
  public:
   Truth(const World& world, const Building& building);
+  ~Truth();
 
-  /// Counts what is seen, and tells where: the landmarks of which kShortestPx or more are in the
-  /// picture, at any distance. `gray`: CV_8UC1 without noise.
+  /// Counts what is seen, and tells where: the landmarks, and other upright lines, of which
+  /// kShortestPx or more are in the picture, at any distance. `gray`: CV_8UC1 without noise.
   std::vector<SeenColumn> observe(const Surfaces& surfaces, const cv::Mat& gray,
                                   const Eigen::Isometry3d& T_world_camera, double stamp_s);
 
@@ -43,7 +47,10 @@ class Truth {
   PinholeCamera camera_;
   double range_m_;
   LandmarkMap landmarks_;
-  std::vector<Outline> outlines_;  ///< of landmarks_, in space
+  std::vector<Outline> outlines_;   ///< of landmarks_, in space
+  std::vector<std::string> kinds_;  ///< of landmarks_, as the columns file says it
+  std::vector<UprightLine> others_;
+  std::vector<RoundOutline> rounds_;
 };
 
 }  // namespace colonnade

@@ -1,0 +1,155 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <opencv2/imgproc.hpp>
+
+#include "colonnade/base/error.hpp"
+#include "colonnade/detectors/pillar_pairs.hpp"
+#include "synthetic_scene.hpp"
+
+namespace colonnade::testing {
+namespace {
+
+const CameraPlace kLevel{0.9, radians(12.0), 0.0, 0.0, {0.0, 0.0}};
+
+Face wall(double gray = 150.0) { return {{4.0, -5.0}, {4.0, 5.0}, gray}; }
+
+bool seesEdgeAt(const Detections& all, const Eigen::Vector2d& p_robot) {
+  const auto pillars = accepted(all, LandmarkKind::kPillarEdge);
+  const auto* nearest = nearestBearing(pillars, bearingOf(p_robot));
+  return nearest && std::abs(nearest->measurement.z[0] - bearingOf(p_robot)) < 0.01;
+}
+
+bool isRefused(const Detections& all, const std::string& reason) {
+  return std::any_of(all.begin(), all.end(),
+                     [&](const Detection& d) { return d.refusal == reason; });
+}
+
+TEST(PillarKind, BoardsEndAboveTheFloor) {
+  Scene scene{
+      {wall(), {{3.98, 0.2}, {3.98, 1.2}, 60.0, 0.8, 1.5}, {{3.5, -1.2}, {3.5, -0.8}, 70.0}}, {}};
+  const auto all = detectAll(withNoise(render(scene, kLevel), 2.0, 1));
+  EXPECT_FALSE(seesEdgeAt(all, {3.98, 0.2}));
+  EXPECT_FALSE(seesEdgeAt(all, {3.98, 1.2}));
+  EXPECT_TRUE(isRefused(all, "ends above the floor"));
+  EXPECT_TRUE(seesEdgeAt(all, {3.5, -1.2}));  // the pillar beside it stands
+  EXPECT_TRUE(seesEdgeAt(all, {3.5, -0.8}));
+}
+
+TEST(PillarKind, FurnitureIsTooLow) {
+  Scene scene{{wall(), {{3.0, 0.2}, {3.0, 0.9}, 60.0, 0.0, 0.8}, {{3.0, -1.0}, {3.0, -0.6}, 70.0}},
+              {}};
+  const auto all = detectAll(withNoise(render(scene, kLevel), 2.0, 2));
+  EXPECT_FALSE(seesEdgeAt(all, {3.0, 0.2}));
+  EXPECT_FALSE(seesEdgeAt(all, {3.0, 0.9}));
+  EXPECT_TRUE(isRefused(all, "too low for a part of the building"));
+  EXPECT_TRUE(seesEdgeAt(all, {3.0, -1.0}));
+  // Without depth the horizon tells.
+  Frame blind = withNoise(render(scene, kLevel), 2.0, 2);
+  blind.depth_m.release();
+  EXPECT_FALSE(seesEdgeAt(detectAll(blind), {3.0, 0.2}));
+  EXPECT_TRUE(seesEdgeAt(detectAll(blind), {3.0, -1.0}));
+}
+
+TEST(PillarKind, AnEdgeWhoseFootIsHiddenStays) {
+  // A box before the foot of the pillar.
+  Scene scene{{wall(), {{3.5, -0.4}, {3.5, 0.4}, 70.0}, {{2.0, -0.8}, {2.0, 0.8}, 110.0, 0.0, 0.5}},
+              {}};
+  const auto all = detectAll(withNoise(render(scene, kLevel), 2.0, 3));
+  EXPECT_TRUE(seesEdgeAt(all, {3.5, -0.4}));
+  EXPECT_TRUE(seesEdgeAt(all, {3.5, 0.4}));
+}
+
+TEST(PillarKind, FaintEdgesAreFoundInNoise) {
+  Scene scene{{wall(150.0), {{3.5, -0.4}, {3.5, 0.4}, 134.0}}, {}};  // 16 gray levels
+  const Frame frame = withNoise(render(scene, kLevel), 4.0, 4);
+  const auto all = detectAll(frame);
+  EXPECT_TRUE(seesEdgeAt(all, {3.5, -0.4}));
+  EXPECT_TRUE(seesEdgeAt(all, {3.5, 0.4}));
+}
+
+TEST(PillarKind, AGentleShadeIsNoEdge) {
+  Frame frame = render(Scene{{wall()}, {}}, {0.9, 0.0, 0.0, 0.0, {0.0, 0.0}});
+  for (int row = 0; row < frame.gray.rows; ++row)
+    for (int u = 0; u < frame.gray.cols; ++u)  // 40 gray levels over 16 pixels
+      frame.gray.at<std::uint8_t>(row, u) =
+          static_cast<std::uint8_t>(100 + 40 * std::clamp(u - 312, 0, 16) / 16);
+  EXPECT_TRUE(accepted(detectAll(frame), LandmarkKind::kPillarEdge).empty());
+}
+
+Detection edgeAt(double column, const Eigen::Vector3f& left, const Eigen::Vector3f& right) {
+  Detection edge;
+  edge.measurement.z = Eigen::VectorXd::Zero(1);
+  edge.measurement.R = Eigen::MatrixXd::Identity(1, 1);
+  edge.a_px = {column, 40.0};
+  edge.b_px = {column, 400.0};
+  edge.appearance.left = left;
+  edge.appearance.right = right;
+  edge.appearance.gradient_sign = right.sum() > left.sum() ? 1 : -1;
+  return edge;
+}
+
+TEST(KnownShade, TheLargestVirtualWidthIsThePillars) {
+  // Thesis 2015, section 2.4: columns 309, 349 and 351 give 40, 42 and 2; it is 42.
+  const Eigen::Vector3f orange(30, 110, 230), background(90, 90, 90);
+  ShadeOptions shade{.space = "rgb",
+                     .first_low = 180,
+                     .first_high = 255,
+                     .second_low = 60,
+                     .second_high = 160,
+                     .third_low = 0,
+                     .third_high = 80};
+  Detections edges{edgeAt(349, orange, background), edgeAt(309, background, orange),
+                   edgeAt(351, orange, background), edgeAt(500, background, 2 * background),
+                   edgeAt(330, orange, 0.9F * orange)};
+  refuseFalseEdges(edges, shade);
+  pairPillars(edges, PillarOptions{}, shade);
+  EXPECT_EQ("false edge inside a pillar", edges[0].refusal);
+  EXPECT_EQ("not of the known shade", edges[3].refusal);
+  EXPECT_EQ("inside the known shade", edges[4].refusal);
+  ASSERT_TRUE(edges[1].partner);
+  EXPECT_EQ(2U, *edges[1].partner);
+  Detections unknown{edgeAt(349, orange, background), edgeAt(351, orange, background)};
+  refuseFalseEdges(unknown, ShadeOptions{});
+  EXPECT_TRUE(unknown[0].accepted() && unknown[1].accepted());
+}
+
+TEST(KnownShade, IsLearnedFromARectangle) {
+  cv::Mat picture(100, 100, CV_8UC3, cv::Scalar(120, 120, 120));
+  picture(cv::Rect(40, 0, 20, 100)).setTo(cv::Scalar(20, 30, 200));  // red: hue around 0
+  cv::Mat noise(picture.size(), CV_8UC3);
+  cv::RNG(3).fill(noise, cv::RNG::UNIFORM, 0, 12);
+  picture += noise;
+  for (const char* space : {"hsv", "rgb"}) {
+    const auto shade = learnShade(picture, {42, 10, 16, 80}, space);
+    EXPECT_TRUE(hasShade({25, 35, 205}, shade)) << space;
+    EXPECT_TRUE(hasShade({35, 25, 195}, shade)) << space;  // the other side of hue 0
+    EXPECT_FALSE(hasShade({120, 120, 120}, shade)) << space;
+    EXPECT_FALSE(hasShade({200, 30, 20}, shade)) << space;
+  }
+  EXPECT_THROW(learnShade(picture, {90, 10, 16, 80}), Error);
+  EXPECT_THROW(learnShade(picture, {5, 5, 0, 5}), Error);
+  EXPECT_THROW(learnShade(cv::Mat(100, 100, CV_8UC1), {5, 5, 5, 5}), Error);
+}
+
+TEST(KnownShade, LeavesOnlyPillarsOfIt) {
+  Scene scene{{wall(), {{3.5, 0.4}, {3.5, 0.8}, 60.0}, {{3.5, -0.8}, {3.5, -0.4}, 230.0}}, {}};
+  const Frame frame = render(scene, kLevel);
+  DetectorOptions options;
+  options.shade = {.space = "rgb",
+                   .first_low = 40,
+                   .first_high = 80,
+                   .second_low = 40,
+                   .second_high = 80,
+                   .third_low = 40,
+                   .third_high = 80};
+  const auto all = detectAll(frame, options);
+  EXPECT_TRUE(seesEdgeAt(all, {3.5, 0.4}));
+  EXPECT_TRUE(seesEdgeAt(all, {3.5, 0.8}));
+  EXPECT_FALSE(seesEdgeAt(all, {3.5, -0.4}));
+}
+
+}  // namespace
+}  // namespace colonnade::testing
