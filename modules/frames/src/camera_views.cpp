@@ -126,8 +126,9 @@ std::optional<ImageView> imageOf(const mrpt::obs::CObservationImage& observation
   return view;
 }
 
-std::optional<DepthView> depthOf(mrpt::obs::CObservation3DRangeScan& scan,
-                                 const std::filesystem::path& images_folder, std::string* problem) {
+std::optional<RangeImageView> depthOf(mrpt::obs::CObservation3DRangeScan& scan,
+                                      const std::filesystem::path& images_folder,
+                                      std::string* problem) {
   if (!scan.hasRangeImage) return std::nullopt;
   if (scan.rangeImage_isExternallyStored()) {
     try {
@@ -148,7 +149,7 @@ std::optional<DepthView> depthOf(mrpt::obs::CObservation3DRangeScan& scan,
     *problem = "depth without a unit";
     return std::nullopt;
   }
-  DepthView view;
+  RangeImageView view;
   view.units = cv::Mat(rows, columns, CV_16UC1, scan.rangeImage.data());
   view.metres_per_unit = static_cast<double>(scan.rangeUnits);
   view.along_axis = scan.range_is_depth;

@@ -39,7 +39,7 @@ struct ImageView {
 };
 
 /// A depth image as the log has it.
-struct DepthView {
+struct RangeImageView {
   cv::Mat units;  ///< CV_16UC1
   double metres_per_unit = 0.001;
   bool along_axis = true;  ///< depth along the optical axis; false: distance along the ray
@@ -59,8 +59,9 @@ std::optional<ImageView> imageOf(const mrpt::obs::CObservation3DRangeScan& scan,
                                  const std::filesystem::path& images_folder, std::string* problem);
 std::optional<ImageView> imageOf(const mrpt::obs::CObservationImage& observation,
                                  const std::filesystem::path& images_folder, std::string* problem);
-std::optional<DepthView> depthOf(mrpt::obs::CObservation3DRangeScan& scan,
-                                 const std::filesystem::path& images_folder, std::string* problem);
+std::optional<RangeImageView> depthOf(mrpt::obs::CObservation3DRangeScan& scan,
+                                      const std::filesystem::path& images_folder,
+                                      std::string* problem);
 
 Eigen::Isometry3d toIsometry(const mrpt::poses::CPose3D& pose);
 

@@ -196,7 +196,7 @@ std::optional<Frame> FrameAssembler::build(Candidate& candidate) {
   frame.stamp_s = candidate.stamp_s;
   std::string problem;
   std::optional<ImageView> image;
-  std::optional<DepthView> depth;
+  std::optional<RangeImageView> depth;
   if (candidate.image) image = imageOf(*candidate.image, images_folder_, &problem);
   if (!image && candidate.scan) image = imageOf(*candidate.scan, images_folder_, &problem);
   if (!problem.empty()) skip(problem);

@@ -112,7 +112,8 @@ struct FrameBuilder::Impl {
     return T_robot_camera;
   }
 
-  static cv::Mat metres(const DepthView& view, const Calibration& calibration, Undistorter& lens) {
+  static cv::Mat metres(const RangeImageView& view, const Calibration& calibration,
+                        Undistorter& lens) {
     cv::Mat depth;
     view.units.convertTo(depth, CV_32F, view.metres_per_unit);
     depth = lens.depth(depth, calibration);
@@ -142,8 +143,8 @@ struct FrameBuilder::Impl {
   }
 
   /// Depth in metres on the pixels of the image.
-  cv::Mat seenFromImage(const DepthView& depth, const ImageView& image, const Calibration& colour,
-                        const Frame& frame) {
+  cv::Mat seenFromImage(const RangeImageView& depth, const ImageView& image,
+                        const Calibration& colour, const Frame& frame) {
     const Eigen::Isometry3d T_camera_depth = image.T_robot_camera.inverse() * depth.T_robot_camera;
     const bool same_size = depth.units.size() == image.pixels.size();
     const auto by_log = [&] {
@@ -197,7 +198,7 @@ FrameBuilder::~FrameBuilder() = default;
 const std::vector<std::string>& FrameBuilder::notes() const { return impl_->notes; }
 
 bool FrameBuilder::build(const std::optional<ImageView>& image,
-                         const std::optional<DepthView>& depth, Frame& frame,
+                         const std::optional<RangeImageView>& depth, Frame& frame,
                          std::string* problem) {
   Impl& s = *impl_;
   if (!image && !depth) return true;
@@ -211,7 +212,7 @@ bool FrameBuilder::build(const std::optional<ImageView>& image,
     s.addImage(*image, colour, frame);
   }
   if (depth) {
-    DepthView view = *depth;
+    RangeImageView view = *depth;
     if (!isGiven(view.calibration) && image) view.calibration = colour;
     const bool calibrated = s.calibrate(view.calibration, view.units, problem);
     if (!calibrated && !image) return false;

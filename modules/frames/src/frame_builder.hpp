@@ -22,7 +22,7 @@ class FrameBuilder {
 
   /// Fills images, camera and T_robot_camera. False with `problem` set when the calibration does
   /// not fit the image. Throws Error(kUsage) when there is no calibration at all.
-  bool build(const std::optional<ImageView>& image, const std::optional<DepthView>& depth,
+  bool build(const std::optional<ImageView>& image, const std::optional<RangeImageView>& depth,
              Frame& frame, std::string* problem);
 
   /// What was decided against the word of the log.

@@ -55,7 +55,7 @@ struct Sensor {
                        std::map<std::string, std::size_t>& skipped) {
     std::string problem;
     std::optional<ImageView> image;
-    std::optional<DepthView> depth;
+    std::optional<RangeImageView> depth;
     if (const auto* scan = dynamic_cast<const CObservation3DRangeScan*>(&observation)) {
       if (!summary.colour || scan->intensityImage.isExternallyStored())
         image = imageOf(*scan, images_folder, &problem);
