@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Colonnade authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -32,6 +33,9 @@ struct RunArguments {
   std::string backend = kDefaultBackend;
   fs::path ground_truth;
   std::vector<std::string> assignments;
+  fs::path map;
+  bool localize = false;
+  std::vector<double> start;  ///< x, y in metres, heading in degrees
 };
 
 /// Truth in the world of the estimate, for the picture.
@@ -83,7 +87,10 @@ bool isRangeBearingLog(const fs::path& log, const SourceOptions& options) {
 }
 
 /// What summary.json says beside the figures of every run.
-void describe(const Session&, nlohmann::ordered_json&) {}
+void describe(const Session& session, nlohmann::ordered_json& json) {
+  json["loop_closings"] = session.mapper().loopClosings();
+  json["hallways"] = session.mapper().hallways().size();
+}
 void describe(const RangeBearingSession& session, nlohmann::ordered_json& json) {
   const IdentityScore score = session.identityScore();
   json["association"] = {{"readings_with_identity", score.readings},
@@ -92,12 +99,28 @@ void describe(const RangeBearingSession& session, nlohmann::ordered_json& json) 
                          {"right_share", score.rightShare()}};
 }
 
+/// Poses as they are known at the end, where a session keeps them.
+Trajectory finalTrajectory(const Session& session) {
+  Trajectory trajectory;
+  for (const auto& [stamp_s, T_world_robot] : session.mapper().trajectory())
+    trajectory.push_back({stamp_s, T_world_robot.toIsometry3()});
+  return trajectory;
+}
+Trajectory finalTrajectory(const RangeBearingSession&) { return {}; }
+
+/// What a later run needs to go on from this map.
+void writeMapToGoOn(const fs::path& folder, const Session& session) {
+  writeFileAtomically(folder / "map.colonnade", MapFile::text(session.mapper().savedMap()));
+}
+void writeMapToGoOn(const fs::path&, const RangeBearingSession&) {}
+
 /// The score, or why there is none: a wrong truth must not cost the map.
-std::optional<TrajectoryScore> scoreAgainst(const Trajectory& truth, const RunRecorder& recorder,
+std::optional<TrajectoryScore> scoreAgainst(const Trajectory& truth, const Trajectory& estimate,
+                                            const std::vector<StampedCovariance>& covariances,
                                             std::string& why_not) {
   if (truth.empty()) return std::nullopt;
   try {
-    return evaluateTrajectory(recorder.trajectory(), truth, {}, recorder.covariances());
+    return evaluateTrajectory(estimate, truth, {}, covariances);
   } catch (const Error& error) {
     why_not = error.what();
     return std::nullopt;
@@ -144,6 +167,28 @@ struct RunInputs {
   RawlogSource& log;
 };
 
+std::ptrdiff_t landmarksIn(const EkfSlam& filter) {
+  const auto& blocks = filter.state().blocks;
+  return std::count_if(blocks.begin(), blocks.end(), [](const Block& b) { return b.isLandmark(); });
+}
+
+/// The map of a former run, if one is asked for, and where in it this one starts.
+std::optional<Resumption> resumption(const RunArguments& arguments, const ResumeOptions& options) {
+  if (arguments.map.empty()) {
+    if (arguments.localize || !arguments.start.empty())
+      throw Error("--localize and --start need --map FILE", ExitCode::kUsage);
+    return std::nullopt;
+  }
+  Resumption from;
+  from.map = MapFile::read(arguments.map);
+  from.localize = arguments.localize;
+  if (!arguments.start.empty())
+    from.T_world_robot = {arguments.start[0], arguments.start[1], radians(arguments.start[2])};
+  from.sigma_m = options.start_sigma_m;
+  from.sigma_heading = options.start_sigma_heading;
+  return from;
+}
+
 /// A session over a source, into a results folder.
 template <class AnySession>
 ExitCode runSession(AnySession& session, FrameSource& source, const RunInputs& inputs) {
@@ -161,7 +206,7 @@ ExitCode runSession(AnySession& session, FrameSource& source, const RunInputs& i
     maps.add(frame, poseOf(now), poseCovarianceOf(now), report.motion.T_previous_robot,
              report.motion.covariance);
     progress.show(source.progress(), recorder.frames(),
-                  std::to_string(now.filter().state().blocks.size()) + " landmarks");
+                  std::to_string(landmarksIn(now.filter())) + " landmarks");
     return !interrupt.requested();
   });
   progress.finish();
@@ -177,15 +222,19 @@ ExitCode runSession(AnySession& session, FrameSource& source, const RunInputs& i
   summary.landmarks = session.map();
   summary.axes = session.axisCount();
   std::string not_scored;
-  summary.score = scoreAgainst(truth, recorder, not_scored);
+  summary.score = scoreAgainst(truth, recorder.trajectory(), recorder.covariances(), not_scored);
+  Trajectory final = finalTrajectory(session);
+  if (final.empty()) final = recorder.trajectory();
+  summary.final_score = scoreAgainst(truth, final, {}, not_scored);
 
-  recorder.write(folder);
+  recorder.write(folder, final);
+  writeMapToGoOn(folder, session);
   writeLandmarksCsv(folder / "landmarks.csv", summary.landmarks);
   MapContents contents;
   contents.title = arguments.log.filename().string();
   contents.landmarks = summary.landmarks;
-  contents.trajectory = recorder.trajectory();
-  if (summary.score) contents.ground_truth = inWorldOf(*summary.score, truth);
+  contents.trajectory = final;
+  if (summary.final_score) contents.ground_truth = inWorldOf(*summary.final_score, truth);
   summary.maps = maps.finish(contents);
   auto json = toJson(summary, recorder, session.filter().health());
   describe(session, json);
@@ -208,12 +257,15 @@ ExitCode run(const RunArguments& arguments) {
   const bool readings_only = isRangeBearingLog(arguments.log, options.source);
   RawlogSource log(arguments.log, options.source);
   const RunInputs inputs{arguments, options, truth, log};
+  auto from = resumption(arguments, options.resume);
   if (readings_only) {
+    if (from) throw Error("--map: maps of landmark readings cannot be loaded", ExitCode::kUsage);
     RangeBearingSession session(options.range_bearing, options.session.filter,
                                 options.session.motion);
     return runSession(session, log, inputs);
   }
-  Session session(options.session, makeImageStage(arguments.backend, options.session.edges));
+  Session session(options.session, makeImageStage(arguments.backend, options.session.edges),
+                  std::move(from));
   CameraFrames source(log, arguments.log);
   return runSession(session, source, inputs);
 }
@@ -231,9 +283,16 @@ Action addRun(CLI::App& verb) {
   verb.add_option("--ground-truth", arguments->ground_truth, "robot poses, TUM file: adds a score");
   verb.add_option("--set", arguments->assignments, "Section.key=value, wins over the file")
       ->allow_extra_args(false);
+  verb.add_option("--map", arguments->map, "map.colonnade of a former run, to go on from");
+  verb.add_flag("--localize", arguments->localize, "with --map: leave it as it is, find the pose");
+  verb.add_option("--start", arguments->start,
+                  "with --map: x,y,heading where the robot starts in it (m, m, degrees)")
+      ->delimiter(',')
+      ->expected(3);
   verb.footer(
       "Examples:\n"
       "  colonnade run rawlogs/corridor.rawlog\n"
+      "  colonnade run monday.rawlog --map sunday_results/map.colonnade --localize\n"
       "  colonnade run corridor.rawlog -o map --ground-truth corridor_ground_truth.tum\n"
       "  colonnade run corridor.rawlog --set Filter.invariant=false --set Axes.enabled=false\n"
       "  colonnade run robot3.rawlog --set RangeBearing.use_ids=false   (landmark readings)");

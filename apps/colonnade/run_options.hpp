@@ -13,6 +13,18 @@
 
 namespace colonnade {
 
+/// How well the start is known in a map that is loaded (--map).
+struct ResumeOptions {
+  static constexpr const char* kSection = "Resume";
+  double start_sigma_m = 0.05;
+  double start_sigma_heading = radians(1.0);
+
+  void visit(OptionVisitor& v) {
+    v.number("start_sigma_m", start_sigma_m, {1e-4, 20}, "of the start in a loaded map");
+    v.angle("start_sigma_heading_deg", start_sigma_heading, {0.01, 30}, "of the heading there");
+  }
+};
+
 /// Every section of the configuration file. Verbs that need a part of it read it all, so that the
 /// config.ini of a run serves them too.
 struct RunOptions {
@@ -21,6 +33,7 @@ struct RunOptions {
   RangeBearingOptions range_bearing;  ///< logs of landmark readings without images
   ScanOptions scans;
   MapOptions maps;
+  ResumeOptions resume;
 
   template <class Take>
   void each(Take&& take) {
@@ -29,6 +42,7 @@ struct RunOptions {
     take(range_bearing);
     take(scans);
     take(maps);
+    take(resume);
   }
 };
 

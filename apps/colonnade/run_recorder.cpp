@@ -27,9 +27,9 @@ void RunRecorder::add(const Frame& frame, const StepReport& report, const Pose2&
   if (report.motion.source != MotionSource::kNone) ++motion_sources_[name(report.motion.source)];
 }
 
-void RunRecorder::write(const std::filesystem::path& folder) const {
+void RunRecorder::write(const std::filesystem::path& folder, const Trajectory& final) const {
   writeTum(folder / "trajectory.tum", trajectory_);
-  writeTum(folder / "trajectory_final.tum", trajectory_);
+  writeTum(folder / "trajectory_final.tum", final);
   writeCovarianceCsv(folder / "trajectory_covariance.csv", covariances_);
   std::string text = "stamp,frame,event,landmark,reason\n";
   for (const Event& event : events_)

@@ -20,8 +20,8 @@ class RunRecorder {
  public:
   void add(const Frame& frame, const StepReport& report, const Pose2& T_world_robot,
            const Eigen::Matrix3d& covariance);
-  /// trajectory.tum, trajectory_covariance.csv, trajectory_final.tum, events.csv.
-  void write(const std::filesystem::path& folder) const;
+  /// trajectory.tum, trajectory_covariance.csv, trajectory_final.tum (`final`), events.csv.
+  void write(const std::filesystem::path& folder, const Trajectory& final) const;
 
   std::size_t frames() const { return trajectory_.size(); }
   double duration() const;

@@ -71,8 +71,8 @@ Json toJson(const RunSummary& summary, const RunRecorder& recorder,
   json["loop_closings"] = 0;
   if (summary.score) {
     json["trajectory"] = toJson(*summary.score);
-    json["trajectory_final"] = toJson(*summary.score);
   }
+  if (summary.final_score) json["trajectory_final"] = toJson(*summary.final_score);
   json["timing_ms"] = {
       {"frame", statistics(times, [](const StageTimes& t) { return t.frame(); })},
       {"read", statistics(times, [](const StageTimes& t) { return t.read; })},
@@ -111,6 +111,8 @@ std::string toText(const Json& json) {
           " pairs), " + count("floor_edge") + " floor edges, " + count("depth_slope") +
           " depth-slope corners, " + std::to_string(json["axes"].get<std::size_t>()) +
           " building axes\n";
+  if (const int closings = json["loop_closings"].get<int>(); closings > 0)
+    text += "loops      " + std::to_string(closings) + " closed\n";
   text += "time       " + formatFixed(json["timing_ms"]["frame"]["median"], 1) +
           " ms a frame (median), " + formatFixed(json["timing_ms"]["frame"]["p95"], 1) +
           " ms (95 %), " + formatFixed(json["realtime_factor"], 1) + " times real time, " +
@@ -120,6 +122,10 @@ std::string toText(const Json& json) {
             json["trajectory"]["alignment"].get<std::string>() + "-aligned, no scale), heading " +
             formatFixed(json["trajectory"]["heading_rmse_deg"], 2) + " degrees, coverage " +
             formatFixed(100.0 * json["trajectory"]["coverage"].get<double>(), 0) + " %\n";
+  if (json.contains("trajectory_final"))
+    text += "afterwards ATE " + formatFixed(json["trajectory_final"]["ate_rmse_m"], 3) +
+            " m, heading " + formatFixed(json["trajectory_final"]["heading_rmse_deg"], 2) +
+            " degrees\n";
   return text;
 }
 

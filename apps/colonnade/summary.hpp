@@ -19,7 +19,8 @@ struct RunSummary {
   std::size_t frames_processed = 0;
   LandmarkMap landmarks;
   std::size_t axes = 0;
-  std::optional<TrajectoryScore> score;
+  std::optional<TrajectoryScore> score;        ///< as estimated online
+  std::optional<TrajectoryScore> final_score;  ///< as known at the end
   Damage damage;
   double wall_seconds = 0.0;
   MapFiles maps;

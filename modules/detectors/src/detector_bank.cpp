@@ -30,6 +30,7 @@ Detections DetectorBank::detect(const Frame& frame, const EdgeLines& edges,
                                 const std::optional<Pose2>& T_previous_robot) {
   Detections all;
   wall_directions_.clear();
+  profile_ = {};
   check_ = checkFrame(frame, edges);
   segmentation_ = segmenter_.segment(frame, T_previous_robot);
   if (!frame.camera.isCalibrated()) return all;
@@ -40,9 +41,9 @@ Detections DetectorBank::detect(const Frame& frame, const EdgeLines& edges,
     if (options_.floor_edges.enabled) append(all, floor_edges_.detect(frame, lines));
   }
   if (check_.depth_usable) {
-    const DepthProfile profile = makeDepthProfile(frame, options_.depth_profile);
-    if (options_.depth_slopes.enabled) append(all, depth_slopes_.detect(frame, profile));
-    wall_directions_ = walls_.detect(profile);
+    profile_ = makeDepthProfile(frame, options_.depth_profile);
+    if (options_.depth_slopes.enabled) append(all, depth_slopes_.detect(frame, profile_));
+    wall_directions_ = walls_.detect(profile_);
   }
   if (options_.short_segments.enabled && check_.image_usable && check_.depth_usable)
     append(all, short_segments_.detect(frame, edges));

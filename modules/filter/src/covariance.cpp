@@ -108,17 +108,20 @@ Eigen::MatrixXd times(const SparseJacobian& H, const Eigen::MatrixXd& A) {
 }
 
 bool correct(State& state, const SparseJacobian& H, const Eigen::VectorXd& nu,
-             const Eigen::MatrixXd& R, bool invariant) {
+             const Eigen::MatrixXd& R, bool invariant, Eigen::Index fixed) {
   const Eigen::MatrixXd PHt = timesTransposed(state.P, H);
   const Eigen::MatrixXd S = times(H, PHt) + R;
   const Eigen::LLT<Eigen::MatrixXd> llt(S);
   if (llt.info() != Eigen::Success) return false;
-  const Eigen::VectorXd dx = PHt * llt.solve(nu);
+  Eigen::VectorXd dx = PHt * llt.solve(nu);
+  dx.segment(3, fixed).setZero();
   if (!dx.allFinite()) return false;
 
   // W W^T = P H^T S^-1 H P, so that P loses a symmetric product: it cannot become unsymmetric.
   const Eigen::MatrixXd W = llt.matrixL().solve(PHt.transpose()).transpose();
+  const Eigen::MatrixXd P_fixed = state.P.block(3, 3, fixed, fixed);
   state.P.selfadjointView<Eigen::Lower>().rankUpdate(W, -1.0);
+  state.P.block(3, 3, fixed, fixed) = P_fixed;
   mirrorLowerTriangle(state.P);
 
   const Eigen::VectorXd G_before = worldTurn(state);

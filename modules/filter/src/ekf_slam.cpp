@@ -131,7 +131,7 @@ std::vector<bool> EkfSlam::update(std::span<const Match> matches, double noise_s
   }
   if (accepted.empty()) return used;
   const Stack s = stack(state_, accepted);
-  if (!correct(state_, s.H, s.nu, noise_scale * s.R, options_.invariant)) {
+  if (!correct(state_, s.H, s.nu, noise_scale * s.R, options_.invariant, fixed_)) {
     health_.refuse("joint innovation covariance singular");
     return std::vector<bool>(matches.size(), false);
   }
@@ -216,13 +216,43 @@ std::optional<LandmarkId> EkfSlam::addLandmark(LandmarkId clone, const Measureme
 }
 
 void EkfSlam::remove(LandmarkId block) {
-  if (state_.find(block)) removeBlock(state_, block);
+  const Block* found = state_.find(block);
+  if (!found) return;
+  if (isFixed(block)) fixed_ -= found->size();
+  removeBlock(state_, block);
+}
+
+EkfSlam::EkfSlam(const FilterOptions& options, State state)
+    : options_(options),
+      state_(std::move(state)),
+      next_id_(state_.blocks.empty() ? 0 : number(state_.blocks.back().id) + 1) {}
+
+void EkfSlam::placeRobot(const Pose2& T_world_robot, const Eigen::Matrix3d& covariance) {
+  state_.x.head<3>() = T_world_robot.vector();
+  state_.P.topRows<3>().setZero();
+  state_.P.leftCols<3>().setZero();
+  state_.P.topLeftCorner<3, 3>() = covariance;
+}
+
+bool EkfSlam::isFixed(LandmarkId block) const {
+  const Block* found = state_.find(block);
+  return found && found->offset - 3 < fixed_;
+}
+
+Eigen::MatrixXd EkfSlam::covarianceOf(const SparseJacobian& H) const {
+  return times(H, timesTransposed(state_.P, H));
+}
+
+bool EkfSlam::constrain(const SparseJacobian& H, const Eigen::VectorXd& nu,
+                        const Eigen::MatrixXd& R) {
+  if (!nu.allFinite() || !R.allFinite()) return false;
+  return correct(state_, H, nu, R, options_.invariant, fixed_);
 }
 
 std::vector<LandmarkId> EkfSlam::settleInverseDepths() {
   std::vector<LandmarkId> settled;
   for (const Block& block : state_.blocks) {
-    if (block.block_kind != BlockKind::kInverseDepth) continue;
+    if (block.block_kind != BlockKind::kInverseDepth || isFixed(block.id)) continue;
     const BlockVector y = state_.values(block);
     const double rho = y(3);
     const double rho_sigma = std::sqrt(state_.P(block.offset + 3, block.offset + 3));
@@ -293,7 +323,8 @@ bool EkfSlam::updateAxis(LandmarkId axis, double direction, double sigma, double
   const Block& block = *state_.find(axis);
   const SparseJacobian H = axisJacobian(block, predictAxis(pose(), state_.x(block.offset)));
   return correct(state_, H, expected->nu,
-                 Eigen::MatrixXd::Constant(1, 1, noise_scale * sigma * sigma), options_.invariant);
+                 Eigen::MatrixXd::Constant(1, 1, noise_scale * sigma * sigma), options_.invariant,
+                 fixed_);
 }
 
 }  // namespace colonnade

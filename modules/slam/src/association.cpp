@@ -47,7 +47,8 @@ Nearby lookAround(std::size_t index, const Detection& detection, const EkfSlam& 
   Nearby nearby;
   for (const Block& block : filter.state().blocks) {
     if (!block.isLandmark() || block.evidence.hypothesis ||
-        block.landmark_kind != detection.kind() || !book.looksLike(block.id, detection))
+        block.landmark_kind != detection.kind() || book.isAsleep(block.id) ||
+        !book.looksLike(block.id, detection))
       continue;
     if (block.block_kind == BlockKind::kFloorLine &&
         gapAlong(block, filter, detection) > options.floor_edge_gap_m)

@@ -10,19 +10,16 @@ namespace colonnade {
 void AxisTracker::step(const Frame& frame, const std::vector<WallDirection>& walls,
                        double noise_scale, EkfSlam& filter, std::vector<Event>& events) {
   if (!options_.enabled) return;
-  std::vector<LandmarkId> used;
   bool considered = false;  // one frame counts once, however many parallel walls it shows
   for (const WallDirection& wall : walls) {
     if (wall.length_m < options_.min_wall_m) continue;
     const double sigma = std::hypot(wall.sigma, options_.parallel_sigma);
     const auto nearest = nearestAxis(wall.direction, sigma, filter);
-    if (!nearest || nearest->apart > options_.merge) {
-      if (considered) continue;
+    if (nearest && nearest->apart <= options_.merge) {
+      filter.updateAxis(nearest->axis, wall.direction, sigma, noise_scale);
+    } else if (!considered) {
       considered = true;
-      if (consider(frame, wall, sigma, filter, events)) used.push_back(axes_.back());
-    } else if (std::find(used.begin(), used.end(), nearest->axis) == used.end() &&
-               filter.updateAxis(nearest->axis, wall.direction, sigma, noise_scale)) {
-      used.push_back(nearest->axis);
+      consider(frame, wall, sigma, filter, events);
     }
   }
 }
@@ -39,7 +36,7 @@ std::optional<AxisTracker::Nearest> AxisTracker::nearestAxis(double direction, d
   return nearest;
 }
 
-bool AxisTracker::consider(const Frame& frame, const WallDirection& wall, double sigma,
+void AxisTracker::consider(const Frame& frame, const WallDirection& wall, double sigma,
                            EkfSlam& filter, std::vector<Event>& events) {
   const double direction = filter.pose().phi + wall.direction;
   if (!candidate_world_ ||
@@ -47,11 +44,10 @@ bool AxisTracker::consider(const Frame& frame, const WallDirection& wall, double
     candidate_world_ = direction;
     sightings_ = 0;
   }
-  if (++sightings_ < options_.sightings) return false;
+  if (++sightings_ < options_.sightings) return;
   axes_.push_back(filter.addAxis(wall.direction, sigma));
   candidate_world_.reset();
   events.push_back({frame.stamp_s, frame.index, "axis", axes_.back(), "wall direction"});
-  return true;
 }
 
 }  // namespace colonnade

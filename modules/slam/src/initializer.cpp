@@ -91,7 +91,7 @@ void Initializer::foundFromBearings(const Frame& frame, const std::vector<Detect
                                     std::vector<Event>& events) {
   const double interval_s = frame.stamp_s - former_stamp_s_.value_or(-HUGE_VAL);
   const double noise_scale = correlatedNoiseScale(interval_s, filter.options().error_correlation_s);
-  const auto step = bearings_.step(unknown, noise_scale, filter);
+  const auto step = bearings_->step(unknown, noise_scale, filter);
   for (const auto& founded : step.founded) {
     book.observe(founded.landmark, founded.detection, frame.stamp_s, filter);
     unseen_.emplace_back(founded.landmark, 0);

@@ -34,7 +34,73 @@ void LandmarkBook::observe(LandmarkId landmark, const Detection& detection, doub
   if (evidence.observations == 0) evidence.first_stamp_s = stamp_s;
   evidence.last_stamp_s = stamp_s;
   ++evidence.observations;
-  pages_[landmark].looks.observe(detection);
+  Page& page = pages_[landmark];
+  if (page.looks.sightings() == 0)
+    page.first_m = way_m_;
+  else if (way_m_ - page.last_m > kLongWay_m)
+    page.returned_m = way_m_;
+  page.last_m = way_m_;
+  page.looks.observe(detection);
+}
+
+LandmarkBook::Seen LandmarkBook::seenOnWay(LandmarkId landmark) const {
+  const auto page = pages_.find(landmark);
+  return page == pages_.end()
+             ? Seen{}
+             : Seen{page->second.first_m, page->second.last_m, page->second.returned_m};
+}
+
+bool LandmarkBook::isAsleep(LandmarkId landmark) const {
+  const auto page = pages_.find(landmark);
+  return page != pages_.end() && page->second.asleep;
+}
+
+void LandmarkBook::observeTogether(const std::vector<LandmarkId>& landmarks) {
+  for (const LandmarkId id : landmarks) {
+    auto& company = pages_[id].company;
+    company.insert(landmarks.begin(), landmarks.end());
+    company.erase(id);
+  }
+}
+
+bool LandmarkBook::seenTogether(LandmarkId a, LandmarkId b) const {
+  const auto page = pages_.find(a);
+  return page != pages_.end() && page->second.company.contains(b);
+}
+
+bool LandmarkBook::lookAlike(LandmarkId a, LandmarkId b) const {
+  const auto one = pages_.find(a), other = pages_.find(b);
+  if (one == pages_.end() || other == pages_.end()) return true;
+  return one->second.looks.sameDarkSide(other->second.looks);
+}
+
+std::optional<double> LandmarkBook::colourDistance(LandmarkId a, LandmarkId b) const {
+  const auto one = pages_.find(a), other = pages_.find(b);
+  if (one == pages_.end() || other == pages_.end() || one->second.looks.sightings() == 0 ||
+      other->second.looks.sightings() == 0)
+    return std::nullopt;
+  return one->second.looks.colourDistance(other->second.looks);
+}
+
+void LandmarkBook::merge(LandmarkId kept, LandmarkId twin) {
+  const auto from = pages_.find(twin);
+  if (from == pages_.end()) return;
+  const Page other = from->second;
+  Page& page = pages_[kept];
+  page.looks.merge(other.looks);
+  page.first_m = std::min(page.first_m, other.first_m);
+  page.last_m = std::max(page.last_m, other.last_m);
+  for (const auto& [id, count] : other.partners)
+    if (id != kept) page.partners[id] += count;
+  page.company.insert(other.company.begin(), other.company.end());
+  page.company.erase(kept);
+  for (auto& [id, neighbour] : pages_) {
+    if (id == kept) continue;
+    if (const auto count = neighbour.partners.find(twin); count != neighbour.partners.end())
+      neighbour.partners[kept] += count->second;
+    if (neighbour.company.contains(twin)) neighbour.company.insert(kept);
+  }
+  forget(twin);
 }
 
 void LandmarkBook::observePair(LandmarkId a, LandmarkId b) {
@@ -44,7 +110,10 @@ void LandmarkBook::observePair(LandmarkId a, LandmarkId b) {
 
 void LandmarkBook::forget(LandmarkId landmark) {
   pages_.erase(landmark);
-  for (auto& [id, page] : pages_) page.partners.erase(landmark);
+  for (auto& [id, page] : pages_) {
+    page.partners.erase(landmark);
+    page.company.erase(landmark);
+  }
 }
 
 bool LandmarkBook::looksLike(LandmarkId landmark, const Detection& detection) const {

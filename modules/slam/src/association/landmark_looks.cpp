@@ -31,6 +31,22 @@ bool LandmarkLooks::sameDarkSide(const Detection& detection) const {
   return gradient_balance_ * detection.appearance.gradient_sign >= 0;
 }
 
+double LandmarkLooks::colourDistance(const LandmarkLooks& other) const {
+  return static_cast<double>(
+      std::max((left_ - other.left_).norm(), (right_ - other.right_).norm()));
+}
+
+void LandmarkLooks::merge(const LandmarkLooks& other) {
+  if (other.sightings_ == 0) return;
+  const float share =
+      static_cast<float>(other.sightings_) / static_cast<float>(sightings_ + other.sightings_);
+  left_ += share * (other.left_ - left_);
+  right_ += share * (other.right_ - right_);
+  if (width_m_ <= 0.0) width_m_ = other.width_m_;
+  sightings_ += other.sightings_;
+  gradient_balance_ += other.gradient_balance_;
+}
+
 LandmarkLooks::Difference LandmarkLooks::difference(const Detection& detection, double colour_sigma,
                                                     double width_sigma) const {
   Difference difference;

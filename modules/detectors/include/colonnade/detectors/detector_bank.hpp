@@ -58,6 +58,8 @@ class DetectorBank {
                     const std::optional<Pose2>& T_previous_robot = std::nullopt);
   /// Walls of the frame last given to detect(), longest first.
   const std::vector<WallDirection>& wallDirections() const { return wall_directions_; }
+  /// The depth slice of that frame; empty without depth.
+  const DepthProfile& depthProfile() const { return profile_; }
   /// What moves and what mirrors in that frame.
   const Segmentation& segmentation() const { return segmentation_; }
   /// Why that frame shows nothing, if so; to be counted.
@@ -72,6 +74,7 @@ class DetectorBank {
   ShortSegmentDetector short_segments_;
   Segmenter segmenter_;
   std::vector<WallDirection> wall_directions_;
+  DepthProfile profile_;
   Segmentation segmentation_;
   FrameCheck check_;
 };

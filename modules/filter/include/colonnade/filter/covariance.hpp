@@ -42,8 +42,11 @@ Eigen::MatrixXd times(const SparseJacobian& H, const Eigen::MatrixXd& A);
 /// invariant: the correction turns the whole world about its origin by its heading part, and P is
 /// carried to the new estimate by M = I + (G(x+) - G(x-)) e_heading^T, which keeps the filter from
 /// gaining information about directions nobody observes (Barrau and Bonnabel, arXiv 1510.06263).
+/// fixed: the first entries after the robot's three that keep their value and covariance, while
+/// what is not known of them still counts (Schmidt's consider filter; Jazwinski, Stochastic
+/// Processes and Filtering Theory, section 8.4).
 bool correct(State& state, const SparseJacobian& H, const Eigen::VectorXd& nu,
-             const Eigen::MatrixXd& R, bool invariant);
+             const Eigen::MatrixXd& R, bool invariant, Eigen::Index fixed = 0);
 
 /// A new block y = f(x, w): its values, the sparse derivative in x and the covariance of what w
 /// adds. The block keeps every correlation with the state.

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "colonnade/filter/covariance.hpp"
 #include "colonnade/filter/filter_options.hpp"
 #include "colonnade/filter/health.hpp"
 #include "colonnade/filter/landmark_map.hpp"
@@ -40,6 +41,17 @@ struct Innovation {
 class EkfSlam {
  public:
   explicit EkfSlam(const FilterOptions& options) : options_(options) {}
+  /// Goes on from a state saved before: blocks in the order of their identities, offsets without
+  /// gaps, P symmetric. The robot is put with placeRobot().
+  EkfSlam(const FilterOptions& options, State state);
+
+  /// Puts the robot at a pose known by other means, independent of everything in the state.
+  void placeRobot(const Pose2& T_world_robot, const Eigen::Matrix3d& covariance);
+  /// From now on the blocks the state holds keep their values and covariance; what is not known of
+  /// them still counts in every correction (Schmidt's consider filter). Blocks added later are
+  /// estimated.
+  void fixMap() { fixed_ = state_.x.size() - 3; }
+  bool isFixed(LandmarkId block) const;
 
   /// Moves the robot by u with covariance Q (x, y, phi in the former robot's axes). Refused: false.
   bool predict(const Pose2& T_previous_robot, const Eigen::Matrix3d& Q);
@@ -87,6 +99,12 @@ class EkfSlam {
                                              double inverse_depth, double inverse_depth_sigma);
   void remove(LandmarkId block);
 
+  /// H P H^T of a linear function of the state.
+  Eigen::MatrixXd covarianceOf(const SparseJacobian& H) const;
+  /// A correction by what is known beside measurements: H dx = nu with covariance R. False, and
+  /// nothing changed, when it is not finite or singular.
+  bool constrain(const SparseJacobian& H, const Eigen::VectorXd& nu, const Eigen::MatrixXd& R);
+
   /// Turns inverse-depth blocks whose linearity index allows into points; returns which.
   std::vector<LandmarkId> settleInverseDepths();
 
@@ -115,6 +133,7 @@ class EkfSlam {
   State state_;
   InnovationHealth health_;
   std::int32_t next_id_ = 0;
+  Eigen::Index fixed_ = 0;  ///< entries of x after the robot that no correction moves
 };
 
 }  // namespace colonnade

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "colonnade/base/angle.hpp"
@@ -17,7 +18,7 @@ struct AxisOptions {
   static constexpr const char* kSection = "Axes";
   bool enabled = true;
   double min_wall_m = 0.8;
-  double parallel_sigma = radians(1.0);
+  double parallel_sigma = radians(0.7);
   double merge = radians(5.0);
   int sightings = 5;
 
@@ -35,8 +36,9 @@ struct AxisOptions {
 /// exist.
 class AxisTracker {
  public:
-  explicit AxisTracker(const AxisOptions& options) : options_(options) {}
-  /// One frame: corrects the heading by each known axis at most once, longest wall first.
+  explicit AxisTracker(const AxisOptions& options, std::vector<LandmarkId> known = {})
+      : options_(options), axes_(std::move(known)) {}
+  /// One frame: corrects the heading by every wall along a known axis, longest wall first.
   /// noise_scale as in EkfSlam::update: a wall keeps its error from frame to frame.
   void step(const Frame& frame, const std::vector<WallDirection>& walls, double noise_scale,
             EkfSlam& filter, std::vector<Event>& events);
@@ -48,8 +50,8 @@ class AxisTracker {
     double apart = 0.0;
   };
   std::optional<Nearest> nearestAxis(double direction, double sigma, const EkfSlam& filter) const;
-  /// Counts a wall of no known axis; true when it founded one.
-  bool consider(const Frame& frame, const WallDirection& wall, double sigma, EkfSlam& filter,
+  /// Counts a wall of no known axis, which founds one in the end.
+  void consider(const Frame& frame, const WallDirection& wall, double sigma, EkfSlam& filter,
                 std::vector<Event>& events);
 
   AxisOptions options_;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -19,7 +20,17 @@ namespace colonnade {
 class Initializer {
  public:
   explicit Initializer(const InitializationOptions& options)
-      : options_(options), bearings_(options) {}
+      : options_(options), bearings_(std::make_unique<BearingCandidates>(options)) {}
+  /// A copy follows no bearings yet: what those of the other hold in the state must be taken out of
+  /// the state that goes with the copy.
+  Initializer(const Initializer& other)
+      : options_(other.options_),
+        candidates_(other.candidates_),
+        bearings_(std::make_unique<BearingCandidates>(other.options_)),
+        former_stamp_s_(other.former_stamp_s_),
+        unseen_(other.unseen_) {}
+  Initializer(Initializer&&) = default;
+  Initializer& operator=(Initializer&&) = default;
 
   /// One frame, after the update. Appends what happened to `events`.
   void step(const Frame& frame, const Detections& detections, const Association& association,
@@ -42,7 +53,7 @@ class Initializer {
 
   InitializationOptions options_;
   std::vector<Candidate> candidates_;
-  BearingCandidates bearings_;
+  std::unique_ptr<BearingCandidates> bearings_;
   std::optional<double> former_stamp_s_;
   std::vector<std::pair<LandmarkId, int>> unseen_;  ///< young landmarks, frames since last seen
 };

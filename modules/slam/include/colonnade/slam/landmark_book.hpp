@@ -3,6 +3,9 @@
 #pragma once
 
 #include <map>
+#include <optional>
+#include <set>
+#include <vector>
 
 #include "colonnade/detectors/detection.hpp"
 #include "colonnade/filter/ekf_slam.hpp"
@@ -18,6 +21,34 @@ class LandmarkBook {
   /// The two edges of one pillar were seen together.
   void observePair(LandmarkId a, LandmarkId b);
   void forget(LandmarkId landmark);
+  /// All that is known of `twin` is known of `kept` from now on.
+  void merge(LandmarkId kept, LandmarkId twin);
+
+  /// The robot has driven on; observations are dated by the way driven.
+  void drive(double distance_m) { way_m_ += distance_m; }
+  double way() const { return way_m_; }
+  /// A way without seeing a landmark, after which seeing it is a return.
+  static constexpr double kLongWay_m = 15.0;
+  /// The way at which a landmark was first and last seen.
+  struct Seen {
+    double first_m = 0.0;
+    double last_m = 0.0;
+    std::optional<double> returned_m;  ///< when it was last seen again after a long way without
+  };
+  Seen seenOnWay(LandmarkId landmark) const;
+
+  /// A landmark that sleeps is not offered to the association: the way since it was last seen left
+  /// its place relative to the robot so uncertain that its neighbours fit as well.
+  void setAsleep(LandmarkId landmark, bool asleep) { pages_[landmark].asleep = asleep; }
+  bool isAsleep(LandmarkId landmark) const;
+
+  /// Whether two landmarks were matched in one frame: then they are two.
+  bool seenTogether(LandmarkId a, LandmarkId b) const;
+  void observeTogether(const std::vector<LandmarkId>& landmarks);
+  /// Whether both may be the same by their looks.
+  bool lookAlike(LandmarkId a, LandmarkId b) const;
+  /// How far their colours are apart, in gray levels; nothing when one has never been looked at.
+  std::optional<double> colourDistance(LandmarkId a, LandmarkId b) const;
 
   /// Whether a detection can be this landmark by its looks: a vertical edge keeps its dark side.
   bool looksLike(LandmarkId landmark, const Detection& detection) const;
@@ -33,9 +64,16 @@ class LandmarkBook {
   struct Page {
     LandmarkLooks looks;
     std::map<LandmarkId, int> partners;
+    std::set<LandmarkId> company;  ///< seen in one frame with it
+    double first_m = 0.0;
+    double last_m = 0.0;
+    std::optional<double> returned_m;
+    bool asleep = false;
   };
+  friend class MapFile;
   std::optional<LandmarkId> bestPartner(LandmarkId landmark) const;
   std::map<LandmarkId, Page> pages_;
+  double way_m_ = 0.0;
 };
 
 }  // namespace colonnade

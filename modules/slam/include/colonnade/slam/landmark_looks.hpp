@@ -22,7 +22,18 @@ class LandmarkLooks {
   /// both are known, by width_sigma of it.
   Difference difference(const Detection& detection, double colour_sigma, double width_sigma) const;
 
+  int sightings() const { return sightings_; }
+  /// Whether both may be one by their dark side.
+  bool sameDarkSide(const LandmarkLooks& other) const {
+    return gradient_balance_ * other.gradient_balance_ >= 0;
+  }
+  /// The larger difference of the mean colours on either side, in gray levels.
+  double colourDistance(const LandmarkLooks& other) const;
+  /// What was seen of another landmark was seen of this one.
+  void merge(const LandmarkLooks& other);
+
  private:
+  friend class MapFile;
   int sightings_ = 0;
   int gradient_balance_ = 0;  ///< sightings with the brighter side on the right minus the others
   Eigen::Vector3f left_ = Eigen::Vector3f::Zero();

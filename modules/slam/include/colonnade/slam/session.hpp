@@ -11,26 +11,17 @@
 #include "colonnade/base/config.hpp"
 #include "colonnade/detectors/detector_bank.hpp"
 #include "colonnade/edges/edge_line_backend.hpp"
-#include "colonnade/filter/ekf_slam.hpp"
 #include "colonnade/frames/frame_source.hpp"
 #include "colonnade/motion/motion_estimator.hpp"
-#include "colonnade/slam/association.hpp"
-#include "colonnade/slam/axis_tracker.hpp"
-#include "colonnade/slam/event.hpp"
-#include "colonnade/slam/initializer.hpp"
-#include "colonnade/slam/landmark_book.hpp"
+#include "colonnade/slam/mapper.hpp"
 
 namespace colonnade {
 
 /// The options of every stage between the frames and the map.
-struct SessionOptions {
+struct SessionOptions : MapperOptions {
   MotionOptions motion;
   EdgeOptions edges;
   DetectorOptions detectors;
-  FilterOptions filter;
-  AssociationOptions association;
-  InitializationOptions initialization;
-  AxisOptions axes;
 
   /// Calls `take` with the options of each stage in turn: to read, to write or to print them.
   template <class Take>
@@ -38,10 +29,7 @@ struct SessionOptions {
     take(motion);
     take(edges);
     detectors.each(take);
-    take(filter);
-    take(association);
-    take(initialization);
-    take(axes);
+    MapperOptions::each(take);
   }
 };
 
@@ -69,7 +57,9 @@ struct StepReport {
 /// options; the stages do not know each other.
 class Session {
  public:
-  Session(const SessionOptions& options, std::unique_ptr<EdgeLineBackend> backend);
+  /// from: a map to go on from; none: an empty one at the robot's start.
+  Session(const SessionOptions& options, std::unique_ptr<EdgeLineBackend> backend,
+          std::optional<Resumption> from = std::nullopt);
   ~Session();
 
   /// Called after each frame; false stops the run.
@@ -78,6 +68,7 @@ class Session {
   void run(FrameSource& source, const Observer& observer);
 
   const EkfSlam& filter() const;
+  const Mapper& mapper() const;
   const EdgeLineBackend& imageStage() const;
   /// Landmarks with what the book knows of them.
   LandmarkMap map() const;

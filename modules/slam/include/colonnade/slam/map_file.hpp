@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "colonnade/filter/state.hpp"
+#include "colonnade/slam/hallway.hpp"
+#include "colonnade/slam/landmark_book.hpp"
+
+namespace colonnade {
+
+/// All that a later run needs to go on from a map or to find its way in it: landmarks and axes with
+/// their joint covariance, what is known of their looks, the hallways.
+struct SavedMap {
+  State state;  ///< landmarks and axes; the robot's entries are zero
+  LandmarkBook book;
+  std::vector<LandmarkId> axes;
+  std::vector<Hallway> hallways;
+};
+
+/// `map.colonnade`: plain text, one thing a line, numbers that read back as the same doubles, a
+/// version in the first line and a checksum in the last.
+class MapFile {
+ public:
+  static std::string text(const SavedMap& map);
+  /// Throws Error naming the file and what is wrong: no such file, no map of ours, a version this
+  /// program does not know, or damage.
+  static SavedMap read(const std::filesystem::path& path);
+};
+
+}  // namespace colonnade

@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "colonnade/filter/ekf_slam.hpp"
+#include "colonnade/slam/association.hpp"
+#include "colonnade/slam/axis_tracker.hpp"
+#include "colonnade/slam/event.hpp"
+#include "colonnade/slam/hallway.hpp"
+#include "colonnade/slam/initializer.hpp"
+#include "colonnade/slam/landmark_book.hpp"
+#include "colonnade/slam/loop_closer.hpp"
+#include "colonnade/slam/map_file.hpp"
+#include "colonnade/slam/observation.hpp"
+#include "colonnade/slam/trail.hpp"
+#include "colonnade/slam/upkeep.hpp"
+
+namespace colonnade {
+
+/// The options of everything after the detectors.
+struct MapperOptions {
+  FilterOptions filter;
+  AssociationOptions association;
+  InitializationOptions initialization;
+  AxisOptions axes;
+  HallwayOptions hallways;
+  LoopOptions loops;
+  UpkeepOptions upkeep;
+  TrailOptions trail;
+
+  template <class Take>
+  void each(Take&& take) {
+    take(filter);
+    take(association);
+    take(initialization);
+    take(axes);
+    take(hallways);
+    take(loops);
+    take(upkeep);
+    take(trail);
+  }
+};
+
+/// A map to go on from, and where in it the robot starts.
+struct Resumption {
+  SavedMap map;
+  bool localize = false;  ///< the map is fixed, only the pose is estimated
+  Pose2 T_world_robot;
+  double sigma_m = 0.05;
+  double sigma_heading = radians(1.0);
+};
+
+/// What one frame did to the map.
+struct MapperReport {
+  Association association;
+  std::vector<Event> events;
+};
+
+/// From what was seen to a map: the second half of the main loop, without images.
+class Mapper {
+ public:
+  explicit Mapper(const MapperOptions& options);
+  Mapper(const MapperOptions& options, Resumption from);
+
+  MapperReport step(const Observation& seen);
+
+  const EkfSlam& filter() const { return estimate_.filter; }
+  /// Landmarks with what the book and the hallways know of them.
+  LandmarkMap map() const;
+  /// What a later run needs to go on.
+  SavedMap savedMap() const;
+  std::size_t axisCount() const { return estimate_.axes.axes().size(); }
+  const std::vector<Hallway>& hallways() const { return estimate_.hallways.hallways(); }
+  /// Where the robot was at every frame, as known now.
+  std::vector<Trail::StampedPose2> trajectory() const {
+    return estimate_.trail.poses(estimate_.filter);
+  }
+  int loopClosings() const { return estimate_.closings; }
+  const LoopCandidate& lastSearch() const { return estimate_.loops.last(); }
+
+ private:
+  /// All that changes from frame to frame; a copy of it is a snapshot, but for bearings that are no
+  /// landmark yet.
+  struct Estimate {
+    EkfSlam filter;
+    LandmarkBook landmarks;
+    Initializer initializer;
+    AxisTracker axes;
+    HallwayTracker hallways;
+    LoopCloser loops;
+    Upkeep upkeep;
+    Trail trail;
+    double former_stamp_s = std::numeric_limits<double>::infinity();
+    int closings = 0;
+    bool grows = true;  ///< new landmarks are founded
+  };
+  /// As it stood before a loop was closed, with what was seen since.
+  struct Snapshot {
+    Estimate estimate;
+    std::vector<Observation> since;
+    Eigen::Vector2d shift = Eigen::Vector2d::Zero();
+    double way_m = 0.0;
+  };
+
+  MapperReport advance(const Observation& seen);
+  void keepUp(const Observation& seen, const std::vector<LandmarkId>& matched,
+              std::vector<Event>& events);
+  void close(const LoopCandidate& loop, const Observation& seen, std::vector<Event>& events);
+  void verify(const Observation& seen, std::vector<Event>& events);
+  void settleInMap();
+  /// Takes what unfinished bearings hold in the state out of it.
+  static void dropBearings(Estimate& estimate);
+
+  MapperOptions options_;
+  Associator association_;
+  Estimate estimate_;
+  std::optional<Snapshot> snapshot_;
+};
+
+}  // namespace colonnade

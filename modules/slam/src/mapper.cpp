@@ -1,0 +1,257 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "colonnade/slam/mapper.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "colonnade/base/text.hpp"
+#include "colonnade/slam/floor_directions.hpp"
+
+namespace colonnade {
+namespace {
+
+/// Books what the update used, and counts what it did not. Returns the landmarks used, ascending.
+std::vector<LandmarkId> book(const Observation& seen, const Association& association,
+                             const std::vector<bool>& used, EkfSlam& filter,
+                             LandmarkBook& landmarks) {
+  std::map<std::size_t, LandmarkId> landmark_of_detection;
+  std::vector<LandmarkId> together;
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    if (!used[i]) continue;
+    const std::size_t d = association.detection_of_match[i];
+    const LandmarkId id = association.matches[i].landmark;
+    landmarks.observe(id, seen.detections[d], seen.stamp_s, filter);
+    landmark_of_detection.emplace(d, id);
+    together.push_back(id);
+  }
+  landmarks.observeTogether(together);
+  for (const auto& [d, id] : landmark_of_detection) {
+    const auto& partner = seen.detections[d].partner;
+    if (!partner || *partner <= d) continue;
+    if (const auto other = landmark_of_detection.find(*partner);
+        other != landmark_of_detection.end())
+      landmarks.observePair(id, other->second);
+  }
+  for (const auto& [reason, count] : association.refused)
+    for (std::size_t i = 0; i < count; ++i) filter.health().refuse(reason);
+  for (const std::string& reason : seen.lacking) filter.health().refuse(reason);
+  for (const Detection& detection : seen.detections)
+    if (!detection.accepted()) filter.health().refuse(detection.refusal);
+  std::sort(together.begin(), together.end());
+  return together;
+}
+
+/// Only landmarks beyond probation are compared: the initializer still watches the others.
+LoopOptions confirmedOnly(LoopOptions loops, const InitializationOptions& initialization) {
+  loops.min_observations = std::max(loops.min_observations, initialization.probation_sightings);
+  return loops;
+}
+
+/// Of the start in a fixed map, up to which the association finds the landmarks by itself.
+constexpr double kKnownStart_m = 0.2;
+
+/// A closing is taken back when less than this share of so many old landmarks that should be seen
+/// after it are.
+constexpr double kContradictingShare = 0.25;
+constexpr int kContradictingCount = 10;
+
+}  // namespace
+
+Mapper::Mapper(const MapperOptions& options)
+    : options_(options),
+      association_(options.association),
+      estimate_{EkfSlam(options.filter),
+                {},
+                Initializer(options.initialization),
+                AxisTracker(options.axes),
+                HallwayTracker(options.hallways),
+                LoopCloser(confirmedOnly(options.loops, options.initialization)),
+                Upkeep(options.upkeep),
+                Trail(options.trail)} {}
+
+Mapper::Mapper(const MapperOptions& options, Resumption from) : Mapper(options) {
+  Estimate& e = estimate_;
+  e.filter = EkfSlam(options.filter, std::move(from.map.state));
+  const Eigen::Vector3d sigma(from.sigma_m, from.sigma_m, from.sigma_heading);
+  e.filter.placeRobot(from.T_world_robot, sigma.cwiseAbs2().asDiagonal());
+  if (from.localize) e.filter.fixMap();
+  // A start the association cannot rely on: landmarks of now must first be found among those of
+  // then.
+  e.grows = !from.localize || from.sigma_m > kKnownStart_m;
+  e.landmarks = std::move(from.map.book);
+  e.landmarks.drive(options.loops.sleep_after_m + 1e-3);
+  e.axes = AxisTracker(options.axes, std::move(from.map.axes));
+  e.hallways = HallwayTracker(options.hallways, std::move(from.map.hallways));
+}
+
+MapperReport Mapper::step(const Observation& seen) {
+  MapperReport report = advance(seen);
+  if (snapshot_) {
+    snapshot_->since.push_back(seen);
+    verify(seen, report.events);
+  } else if (const auto loop = estimate_.loops.step(estimate_.filter, estimate_.landmarks)) {
+    close(*loop, seen, report.events);
+  }
+  return report;
+}
+
+MapperReport Mapper::advance(const Observation& seen) {
+  auto& [filter, landmarks, initializer, axes, hallways, loops, upkeep, trail, former_stamp_s,
+         closings, grows] = estimate_;
+  MapperReport report;
+  Frame frame;  // only its instant
+  frame.index = seen.index;
+  frame.stamp_s = seen.stamp_s;
+
+  filter.predict(seen.motion.T_previous_robot, seen.motion.covariance);
+  landmarks.drive(std::hypot(seen.motion.T_previous_robot.x, seen.motion.T_previous_robot.y));
+  const double noise_scale =
+      correlatedNoiseScale(seen.stamp_s - former_stamp_s, filter.options().error_correlation_s);
+  former_stamp_s = seen.stamp_s;
+  const bool has_depth = !seen.walls.empty() || !seen.sight.rays.empty();
+  axes.step(frame, has_depth ? seen.walls : floorEdgeDirections(seen.detections), noise_scale,
+            filter, report.events);
+  loops.updateSleep(filter, landmarks);
+  report.association = association_.match(seen.detections, filter, landmarks);
+  const auto used = filter.update(report.association.matches, noise_scale);
+  const auto matched = book(seen, report.association, used, filter, landmarks);
+  if (grows)
+    initializer.step(frame, seen.detections, report.association, filter, landmarks, report.events);
+  for (const LandmarkId id : filter.settleInverseDepths())
+    report.events.push_back({seen.stamp_s, seen.index, "settled", id, "inverse depth to x, y"});
+  keepUp(seen, matched, report.events);
+  hallways.step(seen, matched, filter, report.events);
+  trail.step(seen.stamp_s, filter);
+  if (const int places = loops.stepReturn(filter, landmarks, trail); places > 0) {
+    ++closings;
+    report.events.push_back({seen.stamp_s, seen.index, "loop closing", std::nullopt,
+                             std::to_string(places) + " places recognised by the association"});
+  }
+  return report;
+}
+
+void Mapper::keepUp(const Observation& seen, const std::vector<LandmarkId>& matched,
+                    std::vector<Event>& events) {
+  auto& e = estimate_;
+  const auto isYoung = [&](LandmarkId id) {
+    return e.filter.evidence(id).observations < options_.initialization.probation_sightings;
+  };
+  for (const LandmarkId id : e.upkeep.findGone(seen, matched, e.filter, e.landmarks)) {
+    if (isYoung(id)) continue;
+    e.filter.remove(id);
+    e.landmarks.forget(id);
+    e.upkeep.forget(id);
+    events.push_back({seen.stamp_s, seen.index, "gone", id, "in view and not seen"});
+  }
+  if (!e.upkeep.lookEnded()) return;
+  for (const Twins& twins : e.upkeep.findTwins(e.filter, e.landmarks)) {
+    if (isYoung(twins.kept) || isYoung(twins.twin) || !fuse({&twins, 1}, {}, e.filter, e.landmarks))
+      continue;
+    e.hallways.merge(twins.kept, twins.twin);
+    e.upkeep.forget(twins.twin);
+    events.push_back({seen.stamp_s, seen.index, "fused", twins.kept,
+                      "with " + std::to_string(number(twins.twin))});
+  }
+}
+
+void Mapper::close(const LoopCandidate& loop, const Observation& seen, std::vector<Event>& events) {
+  const LoopOptions& options = options_.loops;
+  Snapshot snapshot{estimate_, {}, loop.best.shift, estimate_.landmarks.way()};
+  dropBearings(snapshot.estimate);
+  std::set<LandmarkId> sleeping;
+  for (const Block& block : estimate_.filter.state().blocks)
+    if (estimate_.landmarks.isAsleep(block.id)) sleeping.insert(block.id);
+  const Pose2 before = estimate_.filter.pose();
+  if (!fuse(loop.best.twins, {options.twin_place_m, options.twin_direction}, estimate_.filter,
+            estimate_.landmarks))
+    return;
+  ++estimate_.closings;
+  const Eigen::Vector2d moved = estimate_.filter.pose().translation() - before.translation();
+  events.push_back({seen.stamp_s, seen.index, "loop closing", std::nullopt,
+                    std::to_string(loop.best.twins.size()) + " landmarks at " +
+                        std::to_string(loop.best.places) + " places; " + loop.cues +
+                        "; the robot moved by " + formatFixed(moved.norm(), 3) + " m"});
+  for (const Twins& twins : loop.best.twins) {
+    estimate_.hallways.merge(twins.kept, twins.twin);
+    estimate_.upkeep.forget(twins.twin);
+    events.push_back({seen.stamp_s, seen.index, "fused", twins.kept,
+                      "with " + std::to_string(number(twins.twin))});
+  }
+  if (!estimate_.grows || estimate_.filter.isFixed(loop.best.twins.front().kept)) settleInMap();
+  if (seen.sight.rays.empty() || options.verify_m <= 0.0) return;
+  estimate_.upkeep.watch(std::move(sleeping));
+  snapshot_ = std::move(snapshot);
+}
+
+void Mapper::dropBearings(Estimate& estimate) {
+  std::vector<LandmarkId> held;
+  for (const Block& block : estimate.filter.state().blocks)
+    if (block.evidence.hypothesis ||
+        (block.block_kind == BlockKind::kPoseClone && !estimate.trail.holds(block.id)))
+      held.push_back(block.id);
+  for (const LandmarkId id : held) estimate.filter.remove(id);
+}
+
+/// The robot has found its place in a fixed map: what it founded on the way there goes.
+void Mapper::settleInMap() {
+  auto& e = estimate_;
+  e.grows = false;
+  e.initializer = Initializer(options_.initialization);
+  std::vector<LandmarkId> own;
+  for (const Block& block : e.filter.state().blocks)
+    if (block.block_kind != BlockKind::kAxis && !e.filter.isFixed(block.id) &&
+        !e.trail.holds(block.id))
+      own.push_back(block.id);
+  for (const LandmarkId id : own) {
+    e.filter.remove(id);
+    e.landmarks.forget(id);
+    e.upkeep.forget(id);
+  }
+}
+
+/// Looks back on the last closing: the old landmarks it brought into view must be seen.
+void Mapper::verify(const Observation& seen, std::vector<Event>& events) {
+  const auto& tally = estimate_.upkeep.tally();
+  if (tally.expected >= kContradictingCount && tally.seen < kContradictingShare * tally.expected) {
+    Snapshot before = std::move(*snapshot_);
+    snapshot_.reset();
+    events.push_back({seen.stamp_s, seen.index, "loop closing undone", std::nullopt,
+                      std::to_string(tally.seen) + " of " + std::to_string(tally.expected) +
+                          " expected old landmarks seen"});
+    estimate_ = std::move(before.estimate);
+    estimate_.loops.forbid(before.shift);
+    for (const Observation& again : before.since) {
+      const MapperReport replayed = advance(again);
+      events.insert(events.end(), replayed.events.begin(), replayed.events.end());
+    }
+  } else if (estimate_.landmarks.way() - snapshot_->way_m > options_.loops.verify_m) {
+    snapshot_.reset();
+  }
+}
+
+LandmarkMap Mapper::map() const {
+  LandmarkMap map = estimate_.filter.landmarkMap();
+  estimate_.landmarks.fillPairs(map);
+  estimate_.hallways.fill(map);
+  return map;
+}
+
+SavedMap Mapper::savedMap() const {
+  SavedMap map;
+  EkfSlam filter = estimate_.filter;
+  std::vector<LandmarkId> clones;
+  for (const Block& block : filter.state().blocks)
+    if (block.block_kind == BlockKind::kPoseClone || block.evidence.hypothesis)
+      clones.push_back(block.id);
+  for (const LandmarkId id : clones) filter.remove(id);
+  filter.placeRobot({}, Eigen::Matrix3d::Zero());
+  map.state = filter.state();
+  map.book = estimate_.landmarks;
+  map.axes = estimate_.axes.axes();
+  map.hallways = estimate_.hallways.hallways();
+  return map;
+}
+
+}  // namespace colonnade
