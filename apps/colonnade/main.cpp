@@ -32,6 +32,8 @@ constexpr Verb kVerbs[] = {
     {"baseline", "The same log through one of MRPT's own methods", colonnade::addBaseline},
     {"compare", "The same log through Colonnade and MRPT's own methods, one table",
      colonnade::addCompare},
+    {"accelerator", "The image stage as hardware: resources, clocks and times beside the thesis'",
+     colonnade::addAccelerator},
 };
 
 /// One line on stderr, so that scripts and people see the same.

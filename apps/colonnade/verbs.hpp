@@ -33,5 +33,6 @@ Action addCampaign(CLI::App& verb);
 Action addTextbook(CLI::App& verb);
 Action addBaseline(CLI::App& verb);
 Action addCompare(CLI::App& verb);
+Action addAccelerator(CLI::App& verb);
 
 }  // namespace colonnade

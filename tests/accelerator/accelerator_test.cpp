@@ -42,7 +42,17 @@ FixedParameters parametersFor(const EdgeOptions& options = {}) {
 /// A device between the host and the model that does what broken ones do.
 class Saboteur : public AcceleratorTransport {
  public:
-  enum class Deed { kNone, kSwallowFrame, kFlipEdge, kDropLine, kCutFrame };
+  enum class Deed {
+    kNone,
+    kSwallowFrame,
+    kStall,
+    kFlipEdge,
+    kDropLine,
+    kCutFrame,
+    kLongLines,
+    kWrongSize,
+    kWriteInMidFrame
+  };
   explicit Saboteur(const cv::Size& size) : model_(makeModelTransport(size)) {}
   Deed deed = Deed::kNone;  // done once, to the next frame
 
@@ -52,10 +62,21 @@ class Saboteur : public AcceleratorTransport {
   }
   void sendFrame(const cv::Mat& gray) override {
     if (done(Deed::kSwallowFrame)) return;
+    if (done(Deed::kStall)) return model_->sendFrame(gray.rowRange(0, 100));
+    if (done(Deed::kLongLines) || done(Deed::kWrongSize)) return model_->sendFrame(bent_);
     if (done(Deed::kCutFrame)) {
       model_->sendFrame(gray.rowRange(0, 200));  // the start of the next one ends it
     }
     model_->sendFrame(gray);
+    if (done(Deed::kWriteInMidFrame)) {
+      model_->advance(30000);  // its memories are cleared first
+      model_->writeRegister(registers::kThresholds, 90U << 16 | 60U);
+    }
+  }
+  /// What goes out in place of the next frame.
+  void bend(Deed how, const cv::Size& size) {
+    deed = how;
+    bent_ = cv::Mat(size, CV_8UC1, cv::Scalar(7));
   }
   bool allSent() const override { return model_->allSent(); }
   void advance(int clocks) override { model_->advance(clocks); }
@@ -78,6 +99,7 @@ class Saboteur : public AcceleratorTransport {
     return true;
   }
   std::unique_ptr<AcceleratorTransport> model_;
+  cv::Mat bent_;
 };
 
 TEST(Accelerator, WorksOnTwoFramesAtATimeWithParametersOfTheirOwn) {
@@ -151,14 +173,19 @@ TEST(RtlBackend, AnswersAsFixedWhateverTheDeviceDoes) {
   } cases[] = {{Saboteur::Deed::kFlipEdge, "edges differ"},
                {Saboteur::Deed::kDropLine, "broken packet"},
                {Saboteur::Deed::kCutFrame, "broken frame"},
-               {Saboteur::Deed::kSwallowFrame, "hangs"}};
+               {Saboteur::Deed::kSwallowFrame, "hangs"},
+               {Saboteur::Deed::kStall, "hangs"},
+               {Saboteur::Deed::kLongLines, "broken frame"},
+               {Saboteur::Deed::kWrongSize, "hangs"},
+               {Saboteur::Deed::kWriteInMidFrame, "written in mid-frame"}};
   for (const auto& c : cases) {
     SCOPED_TRACE(c.named);
     Saboteur* device = nullptr;
     RtlBackend backend({}, [&](const cv::Size& size) {
       auto transport = std::make_unique<Saboteur>(size);
       device = transport.get();
-      device->deed = c.deed;
+      const bool is_long = c.deed == Saboteur::Deed::kLongLines;
+      device->bend(c.deed, is_long ? cv::Size(330, 240) : cv::Size(300, 200));
       return transport;
     });
     for (int i = 0; i < 2; ++i) {
@@ -173,6 +200,8 @@ TEST(RtlBackend, AnswersAsFixedWhateverTheDeviceDoes) {
       }
     }
     EXPECT_THAT(backend.notes(), Contains(AllOf(HasSubstr(c.named), HasSubstr("CPU"))));
+    // The next frame is right on the device itself.
+    EXPECT_THAT(backend.notes(), Contains(HasSubstr("1 frames of 320x240 equal to fixed")));
   }
 }
 

@@ -13,6 +13,7 @@ namespace {
 
 constexpr int kStep = 1024;  // clocks between two looks
 constexpr std::uint32_t kAutoRestart = 0x80;
+constexpr std::uint32_t kWrittenInMidFrame = 0x10;  // of STATUS
 constexpr std::size_t kFrameWords = 3;  // of a packet, beside the lines: id, count, clocks
 
 std::uint32_t halves(int high, int low) {
@@ -140,6 +141,13 @@ std::optional<AcceleratorResult> Accelerator::poll() {
   packet_.reset();
   --on_the_way_;
   ++oldest_id_;
+  // submit() never does that; another master on the bus may.
+  const std::uint32_t status = transport_->readRegister(registers::kStatus);
+  if (status != 0) transport_->writeRegister(registers::kStatus, status);
+  if (result.fault == AcceleratorFault::kNone && (status & kWrittenInMidFrame) != 0) {
+    result.fault = AcceleratorFault::kLateWrite;
+    result.detail = "a parameter was written in mid-frame";
+  }
   if (result.fault != AcceleratorFault::kNone) recover();
   return result;
 }

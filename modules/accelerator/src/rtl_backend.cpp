@@ -38,6 +38,8 @@ std::string RtlBackend::differenceOf(const AcceleratorResult& result,
       return "device hangs";
     case AcceleratorFault::kBadFrame:
       return "device got a broken frame";
+    case AcceleratorFault::kLateWrite:
+      return "device had a register written in mid-frame";
     case AcceleratorFault::kBadPacket:
       return "device sent a broken packet";
     case AcceleratorFault::kNone:
@@ -97,7 +99,9 @@ std::vector<std::string> RtlBackend::notes() const {
 
 std::unique_ptr<EdgeLineBackend> makeImageStage(const std::string& name,
                                                 const EdgeOptions& options) {
-  if (name == "rtl") return std::make_unique<RtlBackend>(options, makeModelTransport);
+  if (name == "rtl")
+    return std::make_unique<RtlBackend>(
+        options, [](const cv::Size& size) { return makeModelTransport(size); });
   try {
     return makeEdgeLineBackend(name, options);
   } catch (const Error& error) {

@@ -14,6 +14,7 @@ enum class AcceleratorFault {
   kNone,
   kHang,       ///< nothing came out in time; the device was reset
   kBadFrame,   ///< the device mended a broken frame; see `detail`
+  kLateWrite,  ///< somebody wrote a parameter while a frame came in
   kBadPacket,  ///< what came out does not belong to the frame or contradicts itself
 };
 
