@@ -57,6 +57,7 @@ int main(int argc, char** argv) {
     for (const std::uint32_t value : {0xffffffffU, 0U}) {
       simulation.write(offset, value);
       simulation.read(offset);
+      simulation.write(offset, value, 0);
     }
   }
   simulation.write(0x04, 1);

@@ -68,14 +68,17 @@ class Simulation {
     ++clock;
   }
 
-  void write(std::uint32_t offset, std::uint32_t value) {
+  /// strobes: one bit for each byte to be written.
+  void write(std::uint32_t offset, std::uint32_t value, int strobes = 15) {
     assign(model_.s_axil_awaddr, offset);
     model_.s_axil_wdata = value;
-    model_.s_axil_wstrb = 15;
+    assign(model_.s_axil_wstrb, strobes);
     model_.s_axil_awvalid = model_.s_axil_wvalid = model_.s_axil_bready = 1;
     do cycle();
     while (!write_done_);
   }
+
+  bool interrupt() const { return model_.irq != 0; }
 
   std::uint32_t read(std::uint32_t offset) {
     assign(model_.s_axil_araddr, offset);

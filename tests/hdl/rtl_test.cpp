@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "VFull2.h"
+#include "VRun320.h"
 #include "VThesis1.h"
 #include "VThesis4.h"
 #include "colonnade/edges/accelerator_registers.hpp"
@@ -19,25 +20,25 @@ namespace colonnade {
 namespace {
 
 /// What a model was built with.
-template <class ModelType, int kWidth, int kHeight, int kPpc, int kPasses, bool kFull>
+enum class Set { kThesis, kRun, kFull };
+template <class ModelType, int kWidth, int kHeight, int kPpc, int kPasses, Set kSet>
 struct Design {
   using Model = ModelType;
   static constexpr cv::Size size() { return {kWidth, kHeight}; }
   static constexpr int ppc = kPpc;
   static FixedShape shape() {
     FixedShape shape;
-    if (kFull) {
-      shape.angles_deg.assign(kFullSet.begin(), kFullSet.end());
-    } else {
-      shape.angles_deg.assign(kThesisSet.begin(), kThesisSet.end());
-    }
+    const auto take = [&](const auto& set) { shape.angles_deg.assign(set.begin(), set.end()); };
+    if (kSet == Set::kThesis) take(kThesisSet);
+    if (kSet == Set::kRun) take(kRunSet);
+    if (kSet == Set::kFull) take(kFullSet);
     shape.hysteresis_passes = kPasses;
     return shape;
   }
 };
-using Designs =
-    ::testing::Types<Design<VThesis1, 120, 120, 1, 0, false>,
-                     Design<VThesis4, 120, 120, 4, 0, false>, Design<VFull2, 80, 51, 2, 2, true>>;
+using Designs = ::testing::Types<
+    Design<VThesis1, 120, 120, 1, 0, Set::kThesis>, Design<VThesis4, 120, 120, 4, 0, Set::kThesis>,
+    Design<VFull2, 80, 51, 2, 2, Set::kFull>, Design<VRun320, 320, 240, 1, 2, Set::kRun>>;
 
 struct Packet {
   std::uint32_t frame_id;
@@ -185,10 +186,49 @@ TYPED_TEST(Rtl, SaysWhatItIs) {
   EXPECT_EQ(shape >> 8 & 255, this->stage.shape().angles_deg.size());
 }
 
+TYPED_TEST(Rtl, KeepsBytesWithoutStrobe) {
+  auto& simulation = this->simulation;
+  simulation.write(registers::kThresholds, 0x01230045);
+  simulation.write(registers::kThresholds, 0x03ff0267, 0b0110);  // the outer bytes stay
+  EXPECT_EQ(simulation.read(registers::kThresholds), 0x01ff0245U);
+  simulation.write(registers::kFirstRow, 0x00aa, 0b0010);
+  EXPECT_EQ(simulation.read(registers::kFirstRow), 0U);
+  simulation.write(registers::kEnable0, 0, 0b0001);
+  EXPECT_EQ(simulation.read(registers::kEnable0) & 0xff, 0U);
+  simulation.write(registers::kControl, 0, 0b1110);  // automatic restart is in the lowest byte
+  EXPECT_EQ(simulation.read(registers::kControl) & 0x80, 0x80U);
+}
+
+TYPED_TEST(Rtl, TakesOneFrameForEachStartAndInterrupts) {
+  const FixedParameters p{60, 90, 8, 8, -10, 10, 0, {}};
+  this->configure(p);
+  auto& simulation = this->simulation;
+  simulation.write(registers::kControl, 1);
+  simulation.write(registers::kGier, 1);
+  simulation.write(registers::kIer, 1);
+  this->send(this->randomImage(1));
+  this->send(this->randomImage(4));
+  this->runUntilPackets(1);
+  if (this->HasFatalFailure()) return;
+  EXPECT_TRUE(simulation.interrupt());
+  EXPECT_EQ(simulation.read(registers::kControl) & 2, 2U);  // done, cleared by reading
+  EXPECT_EQ(simulation.read(registers::kControl) & 2, 0U);
+  simulation.write(registers::kIsr, 1);
+  EXPECT_FALSE(simulation.interrupt());
+  for (int i = 0; i < 4 * TypeParam::size().area(); ++i) simulation.cycle();
+  EXPECT_EQ(simulation.packet_ends.size(), 1U) << "nobody asked for the second frame";
+  EXPECT_EQ(simulation.read(registers::kFrames), 0x00010001U);
+  simulation.write(registers::kControl, 1);
+  this->runUntilPackets(2);
+  this->expectExact(0, this->randomImage(1), p);
+  this->expectExact(1, this->randomImage(4), p);
+}
+
 TYPED_TEST(Rtl, GivesTheBitsOfTheModelForEveryFrameWithRandomStalls) {
   // COLONNADE_RTL_FRAMES=1000 for the long comparison.
   const char* wanted = std::getenv("COLONNADE_RTL_FRAMES");
-  const unsigned frames = wanted ? static_cast<unsigned>(std::atoi(wanted)) : 40;
+  const unsigned frames =
+      wanted ? static_cast<unsigned>(std::atoi(wanted)) : (TypeParam::size().width == 320 ? 8 : 40);
   for (unsigned seed = 1; seed <= frames; ++seed) {
     const auto p = this->randomParameters(seed);
     this->configure(p);
