@@ -7,9 +7,22 @@
 
 namespace colonnade {
 
-/// Appends the lines that edge pixels beside a steep guess support. edges: as EdgeLines::edges.
-void refineSteep(const cv::Mat& gray, const cv::Mat& edges, const Straight& guess,
-                 const LineRefinementOptions& options, RefinedLines& lines);
+/// Refines guesses on one image. edges: as EdgeLines::edges.
+class LineRefiner {
+ public:
+  LineRefiner(const cv::Mat& gray, const cv::Mat& edges, bool steep,
+              const LineRefinementOptions& options)
+      : walker_(gray, edges, steep), steep_(steep), options_(options) {}
+
+  /// Appends the lines that edge pixels beside the guess support.
+  void refine(const Straight& guess, RefinedLines& lines);
+
+ private:
+  Walker walker_;
+  bool steep_;
+  LineRefinementOptions options_;
+  Samples rising_, falling_, beside_, some_;
+};
 
 /// Longest first, without those that say nothing a longer one does not.
 RefinedLines withoutDuplicates(RefinedLines lines, double duplicate_px);

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <memory>
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
@@ -21,11 +22,6 @@ struct Sample {
 };
 using Samples = std::vector<Sample>;
 
-struct SignedSamples {
-  Samples rising;
-  Samples falling;
-};
-
 struct Straight {
   double middle = 0.0;
   double offset = 0.0;
@@ -33,7 +29,9 @@ struct Straight {
   double across(double s) const { return offset + slope * (s - middle); }
 };
 
-/// The image seen along steep (s = row) or flat (s = column) lines.
+/// The edge pixels of an image along steep (s = row) or flat (s = column) lines: for each step s a
+/// row of bits across (t), apart for gradients that point along +1 and -1 across. An edge pixel is
+/// measured once, when a line first passes it, however many lines do.
 class Walker {
  public:
   Walker(const cv::Mat& gray, const cv::Mat& edges, bool steep)
@@ -45,82 +43,32 @@ class Walker {
         edges_t_(stride(edges, !steep)),
         length_(steep ? edges.rows : edges.cols),
         width_(steep ? edges.cols : edges.rows),
-        sign_of_code_(steep ? kSteep : kFlat) {}
+        words_(static_cast<std::size_t>(width_) / kWord + 2),
+        shifts_(std::make_unique_for_overwrite<double[]>(edges.total())) {
+    const std::size_t size = static_cast<std::size_t>(length_) * words_;
+    for (auto& bits : bits_) bits.assign(size, 0);
+    measured_.assign(size, 0);
+    setBits(edges, steep);
+  }
 
-  /// Edge pixels within `reach` of the line, the one nearest to the line in each step, apart for
-  /// gradients that point along +1 and -1 across it.
-  SignedSamples collect(const Straight& line, double reach) const {
-    SignedSamples samples;
-    samples.rising.reserve(kExpected);
-    samples.falling.reserve(kExpected);
-    for (int s = 1; s + 1 < length_; ++s) {
-      if (isBlockStart(s) && nothingWithin(line, s, reach)) {
-        s += kBlock - 1;
-        continue;
-      }
-      const double centre = line.across(s);
-      if (centre < 0.0 || centre > width_) continue;
-      // Casts instead of ceil and floor, which are calls: centre - reach may be negative, but then
-      // the border wins.
-      const int low = std::max(2, static_cast<int>(centre - reach) + 1);
-      const int high = std::min(width_ - 3, static_cast<int>(centre + reach));
-      int nearest[2] = {-1, -1};
-      const std::uint8_t* edge = edges_ + s * edges_s_;
-      const auto consider = [&](int t, int code) {
-        const int sign = sign_of_code_[code];
-        if (sign == 0) return;
-        int& best = nearest[sign > 0 ? 0 : 1];
-        if (best < 0 || std::abs(t - centre) < std::abs(best - centre)) best = t;
-      };
-      if (edges_t_ == 1 && high - low < kBlock && low + kBlock <= width_) {
-        for (std::uint64_t codes = word(edge + low) & firstBytes(high - low + 1); codes != 0;) {
-          const int byte = std::countr_zero(codes) / 8;
-          consider(low + byte, static_cast<int>(codes >> (8 * byte) & 0xff));
-          codes &= ~(std::uint64_t{0xff} << (8 * byte));
-        }
-      } else {
-        for (int t = low; t <= high; ++t)
-          if (const int code = edge[t * edges_t_]; code != 0) consider(t, code);
-      }
-      if (nearest[0] >= 0) samples.rising.push_back(measured(s, nearest[0]));
-      if (nearest[1] >= 0) samples.falling.push_back(measured(s, nearest[1]));
-    }
-    return samples;
+  /// Edge pixels within `reach` (up to 10) of the line, the one nearest to the line in each step.
+  void collect(const Straight& line, double reach, int sign, Samples& samples) {
+    samples.clear();
+    each(line, reach, [&](int s, double centre, int low, std::uint64_t mask) {
+      add(s, centre, low, window(bits_[sign > 0 ? 0 : 1], s, low) & mask, samples);
+    });
+  }
+  void collect(const Straight& line, double reach, Samples& rising, Samples& falling) {
+    rising.clear();
+    falling.clear();
+    each(line, reach, [&](int s, double centre, int low, std::uint64_t mask) {
+      add(s, centre, low, window(bits_[0], s, low) & mask, rising);
+      add(s, centre, low, window(bits_[1], s, low) & mask, falling);
+    });
   }
 
  private:
-  static constexpr int kBlock = 8;  ///< steps looked at as one 64-bit word where columns run along
-  static constexpr std::size_t kExpected = 512;
-
-  bool isBlockStart(int s) const { return edges_s_ == 1 && s % kBlock == 1; }
-
-  /// For flat lines: no edge pixel within reach of the line in a whole block of columns. May say
-  /// false where there is none.
-  bool nothingWithin(const Straight& line, int s, double reach) const {
-    if (s + kBlock >= length_) return false;
-    const double first = line.across(s);
-    const double last = line.across(s + kBlock - 1);
-    const double nearest = std::min(first, last);
-    const double farthest = std::max(first, last);
-    if (!(farthest >= 0.0 && nearest <= width_)) return true;
-    const int low = std::max(2, static_cast<int>(nearest - reach));
-    const int high = std::min(width_ - 3, static_cast<int>(farthest + reach) + 1);
-    std::uint64_t any = 0;
-    for (int t = low; t <= high; ++t) any |= word(edges_ + t * edges_t_ + s);
-    return any == 0;
-  }
-
-  /// Eight pixels, the first one in the lowest byte.
-  static std::uint64_t word(const std::uint8_t* first) {
-    std::uint64_t codes;
-    std::memcpy(&codes, first, sizeof codes);
-    if constexpr (std::endian::native == std::endian::big) codes = __builtin_bswap64(codes);
-    return codes;
-  }
-  static std::uint64_t firstBytes(int count) {
-    if (count <= 0) return 0;
-    return count >= kBlock ? ~std::uint64_t{0} : (std::uint64_t{1} << (8 * count)) - 1;
-  }
+  static constexpr std::size_t kWord = 64;
 
   /// Which way across the line a gradient points, by edge code (0 is no edge, then the sectors).
   static constexpr int kSteep[9] = {0, 1, 1, 0, -1, -1, -1, 0, 1};
@@ -128,6 +76,62 @@ class Walker {
 
   static std::ptrdiff_t stride(const cv::Mat& image, bool rows) {
     return rows ? static_cast<std::ptrdiff_t>(image.step[0]) : 1;
+  }
+
+  void setBits(const cv::Mat& edges, bool steep) {
+    const int* const sign_of_code = steep ? kSteep : kFlat;
+    for (int v = 0; v < edges.rows; ++v) {
+      const auto* row = edges.ptr<std::uint8_t>(v);
+      for (int u = 0; u < edges.cols; ++u) {
+        constexpr int kAtOnce = 8;  // most pixels are no edges
+        std::uint64_t codes = 1;
+        if (u + kAtOnce <= edges.cols) std::memcpy(&codes, row + u, sizeof codes);
+        if (codes == 0) {
+          u += kAtOnce - 1;
+          continue;
+        }
+        const int sign = sign_of_code[row[u]];
+        if (sign == 0) continue;
+        const auto s = static_cast<std::size_t>(steep ? v : u);
+        const auto t = static_cast<std::size_t>(steep ? u : v);
+        bits_[sign > 0 ? 0 : 1][s * words_ + t / kWord] |= std::uint64_t{1} << (t % kWord);
+      }
+    }
+  }
+
+  /// 64 bits from t = low on.
+  std::uint64_t window(const std::vector<std::uint64_t>& bits, int s, int low) const {
+    const auto at = static_cast<std::size_t>(low);
+    const std::uint64_t* const word =
+        bits.data() + static_cast<std::size_t>(s) * words_ + at / kWord;
+    const std::size_t shift = at % kWord;
+    return word[0] >> shift | word[1] << 1 << (kWord - 1 - shift);
+  }
+
+  /// Calls take(s, where the line crosses, first t within reach, mask of those within reach).
+  template <class Take>
+  void each(const Straight& line, double reach, Take&& take) {
+    for (int s = 1; s + 1 < length_; ++s) {
+      const double centre = line.across(s);
+      if (centre < 0.0 || centre > width_) continue;
+      // Casts instead of ceil and floor, which are calls: centre - reach may be negative, but then
+      // the border wins.
+      const int low = std::max(2, static_cast<int>(centre - reach) + 1);
+      const int high = std::min(width_ - 3, static_cast<int>(centre + reach));
+      if (high < low) continue;
+      take(s, centre, low, (std::uint64_t{2} << (high - low)) - 1);
+    }
+  }
+
+  void add(int s, double centre, int low, std::uint64_t near, Samples& samples) {
+    if (near == 0) return;
+    int best = low + std::countr_zero(near);
+    for (near &= near - 1; near != 0; near &= near - 1) {
+      const int t = low + std::countr_zero(near);
+      if (std::abs(t - centre) < std::abs(best - centre)) best = t;
+    }
+    samples.push_back({static_cast<double>(s), best + shiftAt(s, best),
+                       edges_[s * edges_s_ + best * edges_t_] - 1});
   }
 
   int gray(int s, int t) const { return gray_[s * gray_s_ + t * gray_t_]; }
@@ -139,21 +143,30 @@ class Walker {
   }
 
   /// Vertex of the parabola through three gradient magnitudes, at most half a pixel away.
-  Sample measured(int s, int t) const {
+  double shiftAt(int s, int t) {
+    const auto i = static_cast<std::size_t>(s), j = static_cast<std::size_t>(t);
+    // Steps along a line lie side by side.
+    double& shift = shifts_[j * static_cast<std::size_t>(length_) + i];
+    std::uint64_t& word = measured_[i * words_ + j / kWord];
+    const std::uint64_t bit = std::uint64_t{1} << (j % kWord);
+    if ((word & bit) != 0) return shift;
+    word |= bit;
     const double before = gradient(s, t - 1);
     const double here = gradient(s, t);
     const double after = gradient(s, t + 1);
     const double curvature = before - 2.0 * here + after;
-    const double shift =
-        curvature < 0.0 ? std::clamp(0.5 * (before - after) / curvature, -0.5, 0.5) : 0.0;
-    return {static_cast<double>(s), t + shift, edges_[s * edges_s_ + t * edges_t_] - 1};
+    shift = curvature < 0.0 ? std::clamp(0.5 * (before - after) / curvature, -0.5, 0.5) : 0.0;
+    return shift;
   }
 
   const std::uint8_t* gray_;
   const std::uint8_t* edges_;
   std::ptrdiff_t gray_s_, gray_t_, edges_s_, edges_t_;
   int length_, width_;
-  const int* sign_of_code_;
+  std::size_t words_;                    ///< of a step, one more than needed
+  std::vector<std::uint64_t> bits_[2];   ///< edge pixels, rising and falling
+  std::vector<std::uint64_t> measured_;  ///< whose shift is known
+  std::unique_ptr<double[]> shifts_;     ///< px from the pixel's centre, by (t, s)
 };
 
 }  // namespace colonnade

@@ -117,10 +117,10 @@ RefinedLines faintUprights(const cv::Mat& gray, const LevelledCamera& camera,
     }
   }
   const double shortest = std::max(lines.min_length_px, options.min_length_px);
+  LineRefiner refiner(mean, edges, true, lines);
   RefinedLines found;
   for (const auto& peak : votes.peaks(static_cast<int>(0.7 * shortest)))
-    refineSteep(mean, edges, {0.5 * gray.rows, peak.u_middle, votes.slopeAt(peak.u_middle)}, lines,
-                found);
+    refiner.refine({0.5 * gray.rows, peak.u_middle, votes.slopeAt(peak.u_middle)}, found);
   return found;
 }
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <tuple>
 
 #include "line_refinement.hpp"
@@ -14,7 +15,7 @@ namespace colonnade {
 namespace {
 
 /// Least squares over samples; the covariance is per unit variance of one sample.
-std::optional<Straight> leastSquares(const Samples& samples, Eigen::Matrix2d* covariance) {
+std::optional<Straight> leastSquares(std::span<const Sample> samples, Eigen::Matrix2d* covariance) {
   if (samples.size() < 3) return std::nullopt;
   const auto n = static_cast<double>(samples.size());
   Straight line;
@@ -36,6 +37,19 @@ std::optional<Straight> leastSquares(const Samples& samples, Eigen::Matrix2d* co
   return line;
 }
 
+/// How many samples agree with the line; may stop short of that when it cannot exceed `beat`.
+int countWithin(std::span<const Sample> samples, const Straight& line, double reach, int beat) {
+  constexpr std::size_t kBlock = 32;
+  int count = 0;
+  for (std::size_t first = 0; first < samples.size(); first += kBlock) {
+    const auto rest = samples.subspan(first);
+    if (count + static_cast<int>(rest.size()) <= beat) break;
+    for (const auto& sample : rest.first(std::min(kBlock, rest.size())))
+      count += std::abs(sample.across - line.across(sample.s)) < reach ? 1 : 0;
+  }
+  return count;
+}
+
 /// The line through two samples that most others agree with; pairs are taken at fixed places.
 std::optional<Straight> consensus(const Samples& samples, double inlier_px) {
   const std::size_t n = samples.size();
@@ -49,10 +63,7 @@ std::optional<Straight> consensus(const Samples& samples, double inlier_px) {
       const auto& b = samples[j * (n - 1) / (kPlaces - 1)];
       if (b.s - a.s < 8.0) continue;
       const Straight line{a.s, a.across, (b.across - a.across) / (b.s - a.s)};
-      int count = 0;
-      for (const auto& sample : samples) {
-        if (std::abs(sample.across - line.across(sample.s)) < inlier_px) ++count;
-      }
+      const int count = countWithin(samples, line, inlier_px, best_count);
       if (count > best_count) {
         best_count = count;
         best = line;
@@ -63,29 +74,28 @@ std::optional<Straight> consensus(const Samples& samples, double inlier_px) {
   return best;
 }
 
-Samples within(const Samples& samples, const Straight& line, double reach) {
-  Samples kept;
-  kept.reserve(samples.size());
-  std::copy_if(samples.begin(), samples.end(), std::back_inserter(kept), [&](const Sample& sample) {
-    return std::abs(sample.across - line.across(sample.s)) <= reach;
-  });
-  return kept;
+void copyWithin(std::span<const Sample> samples, const Straight& line, double reach,
+                Samples& kept) {
+  kept.clear();
+  for (const auto& sample : samples)
+    if (std::abs(sample.across - line.across(sample.s)) <= reach) kept.push_back(sample);
 }
 
-/// Splits samples, ordered along the line, where the gap is too wide.
-std::vector<Samples> runs(const Samples& samples, const LineRefinementOptions& options) {
-  std::vector<Samples> result;
-  for (const auto& sample : samples) {
-    if (result.empty() || sample.s - result.back().back().s > options.max_gap_px) {
-      result.emplace_back();
-    }
-    result.back().push_back(sample);
-  }
-  return result;
+void keepWithin(Samples& samples, const Straight& line, double reach) {
+  std::erase_if(samples, [&](const Sample& sample) {
+    return std::abs(sample.across - line.across(sample.s)) > reach;
+  });
+}
+
+/// How many of the samples, ordered along the line, come before the first gap that is too wide.
+std::size_t firstRun(std::span<const Sample> samples, double max_gap_px) {
+  std::size_t count = samples.empty() ? 0 : 1;
+  while (count < samples.size() && samples[count].s - samples[count - 1].s <= max_gap_px) ++count;
+  return count;
 }
 
 /// Share of the samples whose gradient points straight across the line; blobs of texture turn it.
-double alignedShare(const Samples& samples, const RefinedLine& line) {
+double alignedShare(std::span<const Sample> samples, const RefinedLine& line) {
   const Eigen::Vector2d normal =
       line.gradient_sign *
       (line.steep ? Eigen::Vector2d(1.0, -line.slope) : Eigen::Vector2d(-line.slope, 1.0));
@@ -101,13 +111,14 @@ double alignedShare(const Samples& samples, const RefinedLine& line) {
   return static_cast<double>(aligned) / static_cast<double>(samples.size());
 }
 
-std::optional<RefinedLine> fitRun(Samples samples, bool steep, int sign,
+/// `samples` keeps those that agree.
+std::optional<RefinedLine> fitRun(Samples& samples, bool steep, int sign,
                                   const LineRefinementOptions& options) {
   Eigen::Matrix2d unit;
   for (int round = 0; round < 2; ++round) {
     const auto line = leastSquares(samples, &unit);
     if (!line) return std::nullopt;
-    samples = within(samples, *line, options.inlier_px);
+    keepWithin(samples, *line, options.inlier_px);
   }
   const auto line = leastSquares(samples, &unit);
   if (!line) return std::nullopt;
@@ -177,44 +188,31 @@ bool isFitted(const Straight& line, const Samples& samples, bool steep, int sign
   });
 }
 
-void refineGuess(const cv::Mat& gray, const cv::Mat& edges, bool steep, const Straight& guess,
-                 const LineRefinementOptions& options, RefinedLines& lines) {
-  const Walker walker(gray, edges, steep);
-  const SignedSamples around = walker.collect(guess, options.search_px);
-  for (const int sign : {1, -1}) {
-    const Samples& candidates = sign > 0 ? around.rising : around.falling;
-    if (static_cast<double>(candidates.size()) <
-        options.min_support * 0.7 * options.min_length_px) {
-      continue;
-    }
-    const auto agreed = consensus(candidates, options.inlier_px);
-    if (!agreed || isFitted(*agreed, candidates, steep, sign, lines)) continue;
-    const SignedSamples beside = walker.collect(*agreed, 2.0 * options.inlier_px);
-    const Samples& near = sign > 0 ? beside.rising : beside.falling;
-    const auto fitted = leastSquares(within(near, *agreed, options.inlier_px), nullptr);
-    if (!fitted) continue;
-    for (auto& run : runs(within(near, *fitted, 1.5 * options.inlier_px), options)) {
-      if (run.back().s - run.front().s < 0.7 * options.min_length_px) continue;
-      if (auto line = fitRun(std::move(run), steep, sign, options)) lines.push_back(*line);
-    }
-  }
-}
-
-void refineSeed(const cv::Mat& gray, const cv::Mat& edges, const HoughLine& seed,
-                const LineRefinementOptions& options, RefinedLines& lines) {
-  const double theta = radians(seed.theta_index);
-  const double c = std::cos(theta);
-  const double s = std::sin(theta);
-  const bool steep = std::abs(c) >= std::abs(s);
-  const Straight guess{0.0, seed.rho_bin / (steep ? c : s), steep ? -s / c : -c / s};
-  refineGuess(gray, edges, steep, guess, options, lines);
-}
-
 }  // namespace
 
-void refineSteep(const cv::Mat& gray, const cv::Mat& edges, const Straight& guess,
-                 const LineRefinementOptions& options, RefinedLines& lines) {
-  refineGuess(gray, edges, true, guess, options, lines);
+void LineRefiner::refine(const Straight& guess, RefinedLines& lines) {
+  walker_.collect(guess, options_.search_px, rising_, falling_);
+  for (const int sign : {1, -1}) {
+    const Samples& candidates = sign > 0 ? rising_ : falling_;
+    if (static_cast<double>(candidates.size()) <
+        options_.min_support * 0.7 * options_.min_length_px) {
+      continue;
+    }
+    const auto agreed = consensus(candidates, options_.inlier_px);
+    if (!agreed || isFitted(*agreed, candidates, steep_, sign, lines)) continue;
+    walker_.collect(*agreed, 2.0 * options_.inlier_px, sign, beside_);
+    copyWithin(beside_, *agreed, options_.inlier_px, some_);
+    const auto fitted = leastSquares(some_, nullptr);
+    if (!fitted) continue;
+    keepWithin(beside_, *fitted, 1.5 * options_.inlier_px);
+    for (std::span<const Sample> rest = beside_; !rest.empty();) {
+      const auto run = rest.first(firstRun(rest, options_.max_gap_px));
+      rest = rest.subspan(run.size());
+      if (run.back().s - run.front().s < 0.7 * options_.min_length_px) continue;
+      some_.assign(run.begin(), run.end());
+      if (const auto line = fitRun(some_, steep_, sign, options_)) lines.push_back(*line);
+    }
+  }
 }
 
 RefinedLines withoutDuplicates(RefinedLines lines, double duplicate_px) {
@@ -237,8 +235,18 @@ RefinedLines withoutDuplicates(RefinedLines lines, double duplicate_px) {
 RefinedLines refineLines(const cv::Mat& gray, const EdgeLines& edges,
                          const LineRefinementOptions& options) {
   if (gray.empty() || gray.type() != CV_8UC1 || edges.edges.size() != gray.size()) return {};
+  LineRefiner steep(gray, edges.edges, true, options);
+  LineRefiner flat(gray, edges.edges, false, options);
   RefinedLines lines;
-  for (const auto& seed : edges.lines) refineSeed(gray, edges.edges, seed, options, lines);
+  for (const auto& seed : edges.lines) {
+    const double theta = radians(seed.theta_index);
+    const double c = std::cos(theta);
+    const double s = std::sin(theta);
+    if (std::abs(c) >= std::abs(s))
+      steep.refine({0.0, seed.rho_bin / c, -s / c}, lines);
+    else
+      flat.refine({0.0, seed.rho_bin / s, -c / s}, lines);
+  }
   return withoutDuplicates(std::move(lines), options.duplicate_px);
 }
 
