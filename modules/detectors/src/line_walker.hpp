@@ -48,6 +48,7 @@ class Walker {
     const std::size_t size = static_cast<std::size_t>(length_) * words_;
     for (auto& bits : bits_) bits.assign(size, 0);
     measured_.assign(size, 0);
+    blocks_.assign(static_cast<std::size_t>(length_ / kBlock + 1) * words_, 0);
     setBits(edges, steep);
   }
 
@@ -69,6 +70,7 @@ class Walker {
 
  private:
   static constexpr std::size_t kWord = 64;
+  static constexpr int kBlock = 8;  ///< steps that are skipped at once where nothing is near
 
   /// Which way across the line a gradient points, by edge code (0 is no edge, then the sectors).
   static constexpr int kSteep[9] = {0, 1, 1, 0, -1, -1, -1, 0, 1};
@@ -80,22 +82,27 @@ class Walker {
 
   void setBits(const cv::Mat& edges, bool steep) {
     const int* const sign_of_code = steep ? kSteep : kFlat;
+    const auto set = [&](int u, int v, int code) {
+      const int sign = sign_of_code[code];
+      if (sign == 0) return;
+      const auto s = static_cast<std::size_t>(steep ? v : u);
+      const auto t = static_cast<std::size_t>(steep ? u : v);
+      const std::uint64_t bit = std::uint64_t{1} << (t % kWord);
+      bits_[sign > 0 ? 0 : 1][s * words_ + t / kWord] |= bit;
+      blocks_[s / kBlock * words_ + t / kWord] |= bit;
+    };
     for (int v = 0; v < edges.rows; ++v) {
       const auto* row = edges.ptr<std::uint8_t>(v);
-      for (int u = 0; u < edges.cols; ++u) {
-        constexpr int kAtOnce = 8;  // most pixels are no edges
-        std::uint64_t codes = 1;
-        if (u + kAtOnce <= edges.cols) std::memcpy(&codes, row + u, sizeof codes);
-        if (codes == 0) {
-          u += kAtOnce - 1;
-          continue;
-        }
-        const int sign = sign_of_code[row[u]];
-        if (sign == 0) continue;
-        const auto s = static_cast<std::size_t>(steep ? v : u);
-        const auto t = static_cast<std::size_t>(steep ? u : v);
-        bits_[sign > 0 ? 0 : 1][s * words_ + t / kWord] |= std::uint64_t{1} << (t % kWord);
+      constexpr int kAtOnce = 8;  // most pixels are no edges
+      int u = 0;
+      for (; u + kAtOnce <= edges.cols; u += kAtOnce) {
+        std::uint64_t codes;
+        std::memcpy(&codes, row + u, sizeof codes);
+        if (codes == 0) continue;
+        for (int i = 0; i < kAtOnce; ++i)
+          if (row[u + i] != 0) set(u + i, v, row[u + i]);
       }
+      for (; u < edges.cols; ++u) set(u, v, row[u]);
     }
   }
 
@@ -111,16 +118,34 @@ class Walker {
   /// Calls take(s, where the line crosses, first t within reach, mask of those within reach).
   template <class Take>
   void each(const Straight& line, double reach, Take&& take) {
-    for (int s = 1; s + 1 < length_; ++s) {
-      const double centre = line.across(s);
-      if (centre < 0.0 || centre > width_) continue;
-      // Casts instead of ceil and floor, which are calls: centre - reach may be negative, but then
-      // the border wins.
-      const int low = std::max(2, static_cast<int>(centre - reach) + 1);
-      const int high = std::min(width_ - 3, static_cast<int>(centre + reach));
-      if (high < low) continue;
-      take(s, centre, low, (std::uint64_t{2} << (high - low)) - 1);
+    for (int s = 1; s + 1 < length_;) {
+      const int end = std::min((s / kBlock + 1) * kBlock, length_ - 1);
+      if (isEmpty(line, s, end, reach)) {
+        s = end;
+        continue;
+      }
+      for (; s < end; ++s) {
+        const double centre = line.across(s);
+        if (centre < 0.0 || centre > width_) continue;
+        // Casts instead of ceil and floor, which are calls: centre - reach may be negative, but
+        // then the border wins.
+        const int low = std::max(2, static_cast<int>(centre - reach) + 1);
+        const int high = std::min(width_ - 3, static_cast<int>(centre + reach));
+        if (high >= low) take(s, centre, low, (std::uint64_t{2} << (high - low)) - 1);
+      }
     }
+  }
+
+  /// No edge pixel lies within reach in a block of steps [first, end). May say false nevertheless.
+  bool isEmpty(const Straight& line, int first, int end, double reach) const {
+    const double a = line.across(first), b = line.across(end - 1);
+    const double nearest = std::min(a, b), farthest = std::max(a, b);
+    if (!(farthest >= 0.0 && nearest <= width_)) return true;
+    const int low = std::max(2, static_cast<int>(nearest - reach));
+    const int high = std::min(width_ - 3, static_cast<int>(farthest + reach) + 1);
+    if (high < low) return true;
+    if (high - low >= static_cast<int>(kWord)) return false;
+    return (window(blocks_, first / kBlock, low) & ((std::uint64_t{2} << (high - low)) - 1)) == 0;
   }
 
   void add(int s, double centre, int low, std::uint64_t near, Samples& samples) {
@@ -165,6 +190,7 @@ class Walker {
   int length_, width_;
   std::size_t words_;                    ///< of a step, one more than needed
   std::vector<std::uint64_t> bits_[2];   ///< edge pixels, rising and falling
+  std::vector<std::uint64_t> blocks_;    ///< edge pixels of either sign in kBlock steps
   std::vector<std::uint64_t> measured_;  ///< whose shift is known
   std::unique_ptr<double[]> shifts_;     ///< px from the pixel's centre, by (t, s)
 };
