@@ -29,134 +29,137 @@ struct Straight {
   double across(double s) const { return offset + slope * (s - middle); }
 };
 
-/// The edge pixels of an image along steep (s = row) or flat (s = column) lines: for each step s a
-/// row of bits across (t), apart for gradients that point along +1 and -1 across. An edge pixel is
-/// measured once, when a line first passes it, however many lines do.
+/// The edge pixels of an image along steep (s = row) or flat (s = column) lines, apart for
+/// gradients that point along +1 and -1 across (t). They are kept as bits in tiles of 8 x 8 pixels,
+/// one word each, those along s side by side: a walk along a line reads little memory and skips
+/// eight steps at once where nothing is near. An edge pixel is measured once, when a line first
+/// passes it.
 class Walker {
  public:
   Walker(const cv::Mat& gray, const cv::Mat& edges, bool steep)
       : gray_(gray.data),
-        edges_(edges.data),
-        gray_s_(stride(gray, steep)),
-        gray_t_(stride(gray, !steep)),
-        edges_s_(stride(edges, steep)),
-        edges_t_(stride(edges, !steep)),
+        gray_s_(steep ? static_cast<std::ptrdiff_t>(gray.step[0]) : 1),
+        gray_t_(steep ? 1 : static_cast<std::ptrdiff_t>(gray.step[0])),
         length_(steep ? edges.rows : edges.cols),
         width_(steep ? edges.cols : edges.rows),
-        words_(static_cast<std::size_t>(width_) / kWord + 2),
-        shifts_(std::make_unique_for_overwrite<double[]>(edges.total())) {
-    const std::size_t size = static_cast<std::size_t>(length_) * words_;
-    for (auto& bits : bits_) bits.assign(size, 0);
-    measured_.assign(size, 0);
-    blocks_.assign(static_cast<std::size_t>(length_ / kBlock + 1) * words_, 0);
-    setBits(edges, steep);
+        tiles_(static_cast<std::size_t>(length_ + kTile - 1) / kTile),
+        shifts_(std::make_unique_for_overwrite<double[]>(edges.total())),
+        codes_(std::make_unique_for_overwrite<std::uint8_t[]>(edges.total())) {
+    const std::size_t size = tiles_ * (static_cast<std::size_t>(width_) / kTile + kMostTiles);
+    for (auto* bits : {&rising_, &falling_, &measured_}) bits->assign(size, 0);
+    takeEdges(edges, steep);
   }
 
   /// Edge pixels within `reach` (up to 10) of the line, the one nearest to the line in each step.
   void collect(const Straight& line, double reach, int sign, Samples& samples) {
     samples.clear();
-    each(line, reach, [&](int s, double centre, int low, std::uint64_t mask) {
-      add(s, centre, low, window(bits_[sign > 0 ? 0 : 1], s, low) & mask, samples);
+    eachBlock(line, reach, [&](const Block& block) {
+      addBlock(line, reach, block, sign > 0 ? rising_ : falling_, samples);
     });
   }
   void collect(const Straight& line, double reach, Samples& rising, Samples& falling) {
     rising.clear();
     falling.clear();
-    each(line, reach, [&](int s, double centre, int low, std::uint64_t mask) {
-      add(s, centre, low, window(bits_[0], s, low) & mask, rising);
-      add(s, centre, low, window(bits_[1], s, low) & mask, falling);
+    eachBlock(line, reach, [&](const Block& block) {
+      addBlock(line, reach, block, rising_, rising);
+      addBlock(line, reach, block, falling_, falling);
     });
   }
 
  private:
-  static constexpr std::size_t kWord = 64;
-  static constexpr int kBlock = 8;  ///< steps that are skipped at once where nothing is near
+  using Tiles = std::vector<std::uint64_t>;
+  static constexpr int kTile = 8;
+  static constexpr int kMostTiles = 8;  ///< across, that a line passes in eight steps
+
+  /// Steps [first, end) of one row of tiles and the tiles across that the line passes there.
+  struct Block {
+    int first, end;
+    int tile, count;
+  };
 
   /// Which way across the line a gradient points, by edge code (0 is no edge, then the sectors).
   static constexpr int kSteep[9] = {0, 1, 1, 0, -1, -1, -1, 0, 1};
   static constexpr int kFlat[9] = {0, 0, 1, 1, 1, 0, -1, -1, -1};
 
-  static std::ptrdiff_t stride(const cv::Mat& image, bool rows) {
-    return rows ? static_cast<std::ptrdiff_t>(image.step[0]) : 1;
+  std::size_t tileOf(std::size_t s, std::size_t t) const { return t / kTile * tiles_ + s / kTile; }
+  static std::uint64_t bitOf(std::size_t s, std::size_t t) {
+    return std::uint64_t{1} << (s % kTile * kTile + t % kTile);
+  }
+  std::size_t pixelOf(std::size_t s, std::size_t t) const {
+    return t * static_cast<std::size_t>(length_) + s;
   }
 
-  void setBits(const cv::Mat& edges, bool steep) {
+  void takeEdges(const cv::Mat& edges, bool steep) {
     const int* const sign_of_code = steep ? kSteep : kFlat;
-    const auto set = [&](int u, int v, int code) {
+    const auto take = [&](int u, int v, std::uint8_t code) {
       const int sign = sign_of_code[code];
       if (sign == 0) return;
       const auto s = static_cast<std::size_t>(steep ? v : u);
       const auto t = static_cast<std::size_t>(steep ? u : v);
-      const std::uint64_t bit = std::uint64_t{1} << (t % kWord);
-      bits_[sign > 0 ? 0 : 1][s * words_ + t / kWord] |= bit;
-      blocks_[s / kBlock * words_ + t / kWord] |= bit;
+      (sign > 0 ? rising_ : falling_)[tileOf(s, t)] |= bitOf(s, t);
+      codes_[pixelOf(s, t)] = code;
     };
     for (int v = 0; v < edges.rows; ++v) {
       const auto* row = edges.ptr<std::uint8_t>(v);
-      constexpr int kAtOnce = 8;  // most pixels are no edges
       int u = 0;
-      for (; u + kAtOnce <= edges.cols; u += kAtOnce) {
+      for (; u + kTile <= edges.cols; u += kTile) {
         std::uint64_t codes;
         std::memcpy(&codes, row + u, sizeof codes);
-        if (codes == 0) continue;
-        for (int i = 0; i < kAtOnce; ++i)
-          if (row[u + i] != 0) set(u + i, v, row[u + i]);
+        if (codes == 0) continue;  // most pixels are no edges
+        for (int i = 0; i < kTile; ++i) take(u + i, v, row[u + i]);
       }
-      for (; u < edges.cols; ++u) set(u, v, row[u]);
+      for (; u < edges.cols; ++u) take(u, v, row[u]);
     }
   }
 
-  /// 64 bits from t = low on.
-  std::uint64_t window(const std::vector<std::uint64_t>& bits, int s, int low) const {
-    const auto at = static_cast<std::size_t>(low);
-    const std::uint64_t* const word =
-        bits.data() + static_cast<std::size_t>(s) * words_ + at / kWord;
-    const std::size_t shift = at % kWord;
-    return word[0] >> shift | word[1] << 1 << (kWord - 1 - shift);
-  }
-
-  /// Calls take(s, where the line crosses, first t within reach, mask of those within reach).
   template <class Take>
-  void each(const Straight& line, double reach, Take&& take) {
-    for (int s = 1; s + 1 < length_;) {
-      const int end = std::min((s / kBlock + 1) * kBlock, length_ - 1);
-      if (isEmpty(line, s, end, reach)) {
-        s = end;
-        continue;
-      }
-      for (; s < end; ++s) {
-        const double centre = line.across(s);
-        if (centre < 0.0 || centre > width_) continue;
-        // Casts instead of ceil and floor, which are calls: centre - reach may be negative, but
-        // then the border wins.
-        const int low = std::max(2, static_cast<int>(centre - reach) + 1);
-        const int high = std::min(width_ - 3, static_cast<int>(centre + reach));
-        if (high >= low) take(s, centre, low, (std::uint64_t{2} << (high - low)) - 1);
-      }
+  void eachBlock(const Straight& line, double reach, Take&& take) const {
+    for (int start = 0; start < length_ - 1; start += kTile) {
+      const int first = std::max(start, 1), end = std::min(start + kTile, length_ - 1);
+      if (first >= end) continue;
+      const double a = line.across(first), b = line.across(end - 1);
+      const double nearest = std::min(a, b), farthest = std::max(a, b);
+      if (!(farthest >= 0.0 && nearest <= width_)) continue;
+      const int low = std::max(0, static_cast<int>(nearest - reach)) / kTile;
+      const int high = std::min(width_ - 1, static_cast<int>(farthest + reach) + 1) / kTile;
+      if (high >= low) take(Block{first, end, low, std::min(high - low + 1, kMostTiles)});
     }
   }
 
-  /// No edge pixel lies within reach in a block of steps [first, end). May say false nevertheless.
-  bool isEmpty(const Straight& line, int first, int end, double reach) const {
-    const double a = line.across(first), b = line.across(end - 1);
-    const double nearest = std::min(a, b), farthest = std::max(a, b);
-    if (!(farthest >= 0.0 && nearest <= width_)) return true;
-    const int low = std::max(2, static_cast<int>(nearest - reach));
-    const int high = std::min(width_ - 3, static_cast<int>(farthest + reach) + 1);
-    if (high < low) return true;
-    if (high - low >= static_cast<int>(kWord)) return false;
-    return (window(blocks_, first / kBlock, low) & ((std::uint64_t{2} << (high - low)) - 1)) == 0;
+  void addBlock(const Straight& line, double reach, const Block& block, const Tiles& bits,
+                Samples& samples) {
+    const std::uint64_t* const tile = bits.data() + static_cast<std::size_t>(block.tile) * tiles_ +
+                                      static_cast<std::size_t>(block.first) / kTile;
+    std::uint64_t any = 0;
+    for (int i = 0; i < block.count; ++i) any |= tile[static_cast<std::size_t>(i) * tiles_];
+    if (any == 0) return;
+    const int origin = block.tile * kTile;
+    for (int s = block.first; s < block.end; ++s) {
+      const int shift = s % kTile * kTile;
+      if ((any >> shift & 0xff) == 0) continue;
+      const double centre = line.across(s);
+      if (centre < 0.0 || centre > width_) continue;
+      // Casts instead of ceil and floor, which are calls: centre - reach may be negative, but then
+      // the border wins.
+      const int low = std::max(2, static_cast<int>(centre - reach) + 1) - origin;
+      const int high = std::min(width_ - 3, static_cast<int>(centre + reach)) - origin;
+      if (high < low) continue;
+      std::uint64_t row = 0;
+      for (int i = 0; i < block.count; ++i)
+        row |= (tile[static_cast<std::size_t>(i) * tiles_] >> shift & 0xff) << (i * kTile);
+      row = row >> low << low & (~std::uint64_t{0} >> (63 - high));
+      if (row != 0) add(s, centre, origin, row, samples);
+    }
   }
 
-  void add(int s, double centre, int low, std::uint64_t near, Samples& samples) {
-    if (near == 0) return;
-    int best = low + std::countr_zero(near);
-    for (near &= near - 1; near != 0; near &= near - 1) {
-      const int t = low + std::countr_zero(near);
+  void add(int s, double centre, int origin, std::uint64_t row, Samples& samples) {
+    int best = origin + std::countr_zero(row);
+    for (row &= row - 1; row != 0; row &= row - 1) {
+      const int t = origin + std::countr_zero(row);
       if (std::abs(t - centre) < std::abs(best - centre)) best = t;
     }
-    samples.push_back({static_cast<double>(s), best + shiftAt(s, best),
-                       edges_[s * edges_s_ + best * edges_t_] - 1});
+    const std::size_t pixel = pixelOf(static_cast<std::size_t>(s), static_cast<std::size_t>(best));
+    samples.push_back({static_cast<double>(s), best + shiftAt(s, best), codes_[pixel] - 1});
   }
 
   int gray(int s, int t) const { return gray_[s * gray_s_ + t * gray_t_]; }
@@ -170,12 +173,11 @@ class Walker {
   /// Vertex of the parabola through three gradient magnitudes, at most half a pixel away.
   double shiftAt(int s, int t) {
     const auto i = static_cast<std::size_t>(s), j = static_cast<std::size_t>(t);
-    // Steps along a line lie side by side.
-    double& shift = shifts_[j * static_cast<std::size_t>(length_) + i];
-    std::uint64_t& word = measured_[i * words_ + j / kWord];
-    const std::uint64_t bit = std::uint64_t{1} << (j % kWord);
-    if ((word & bit) != 0) return shift;
-    word |= bit;
+    double& shift = shifts_[pixelOf(i, j)];
+    std::uint64_t& tile = measured_[tileOf(i, j)];
+    const std::uint64_t bit = bitOf(i, j);
+    if ((tile & bit) != 0) return shift;
+    tile |= bit;
     const double before = gradient(s, t - 1);
     const double here = gradient(s, t);
     const double after = gradient(s, t + 1);
@@ -185,14 +187,13 @@ class Walker {
   }
 
   const std::uint8_t* gray_;
-  const std::uint8_t* edges_;
-  std::ptrdiff_t gray_s_, gray_t_, edges_s_, edges_t_;
+  std::ptrdiff_t gray_s_, gray_t_;
   int length_, width_;
-  std::size_t words_;                    ///< of a step, one more than needed
-  std::vector<std::uint64_t> bits_[2];   ///< edge pixels, rising and falling
-  std::vector<std::uint64_t> blocks_;    ///< edge pixels of either sign in kBlock steps
-  std::vector<std::uint64_t> measured_;  ///< whose shift is known
-  std::unique_ptr<double[]> shifts_;     ///< px from the pixel's centre, by (t, s)
+  std::size_t tiles_;                      ///< along
+  Tiles rising_, falling_;                 ///< edge pixels
+  Tiles measured_;                         ///< those whose shift is known
+  std::unique_ptr<double[]> shifts_;       ///< px from the pixel's centre; those along s together
+  std::unique_ptr<std::uint8_t[]> codes_;  ///< of edge pixels, likewise
 };
 
 }  // namespace colonnade
