@@ -18,6 +18,7 @@ namespace colonnade {
 struct Sample {
   double s = 0.0;       ///< along
   double across = 0.0;  ///< sub-pixel
+  int t = 0;            ///< its pixel
   int sector = 0;       ///< of the gradient
 };
 using Samples = std::vector<Sample>;
@@ -47,23 +48,33 @@ class Walker {
         codes_(std::make_unique_for_overwrite<std::uint8_t[]>(edges.total())) {
     const std::size_t size = tiles_ * (static_cast<std::size_t>(width_) / kTile + kMostTiles);
     for (auto* bits : {&rising_, &falling_, &measured_}) bits->assign(size, 0);
-    takeEdges(edges, steep);
+    setEdges(edges, steep);
+    free_rising_ = rising_;
+    free_falling_ = falling_;
   }
 
   /// Edge pixels within `reach` (up to 10) of the line, the one nearest to the line in each step.
-  void collect(const Straight& line, double reach, int sign, Samples& samples) {
+  void collectAll(const Straight& line, double reach, int sign, Samples& samples) {
     samples.clear();
     eachBlock(line, reach, [&](const Block& block) {
       addBlock(line, reach, block, sign > 0 ? rising_ : falling_, samples);
     });
   }
-  void collect(const Straight& line, double reach, Samples& rising, Samples& falling) {
+  /// The same of those not taken yet.
+  void collectFree(const Straight& line, double reach, Samples& rising, Samples& falling) {
     rising.clear();
     falling.clear();
     eachBlock(line, reach, [&](const Block& block) {
-      addBlock(line, reach, block, rising_, rising);
-      addBlock(line, reach, block, falling_, falling);
+      addBlock(line, reach, block, free_rising_, rising);
+      addBlock(line, reach, block, free_falling_, falling);
     });
+  }
+  void take(const Samples& samples, int sign) {
+    Tiles& bits = sign > 0 ? free_rising_ : free_falling_;
+    for (const auto& sample : samples) {
+      const auto s = static_cast<std::size_t>(sample.s), t = static_cast<std::size_t>(sample.t);
+      bits[tileOf(s, t)] &= ~bitOf(s, t);
+    }
   }
 
  private:
@@ -89,9 +100,9 @@ class Walker {
     return t * static_cast<std::size_t>(length_) + s;
   }
 
-  void takeEdges(const cv::Mat& edges, bool steep) {
+  void setEdges(const cv::Mat& edges, bool steep) {
     const int* const sign_of_code = steep ? kSteep : kFlat;
-    const auto take = [&](int u, int v, std::uint8_t code) {
+    const auto set = [&](int u, int v, std::uint8_t code) {
       const int sign = sign_of_code[code];
       if (sign == 0) return;
       const auto s = static_cast<std::size_t>(steep ? v : u);
@@ -106,9 +117,9 @@ class Walker {
         std::uint64_t codes;
         std::memcpy(&codes, row + u, sizeof codes);
         if (codes == 0) continue;  // most pixels are no edges
-        for (int i = 0; i < kTile; ++i) take(u + i, v, row[u + i]);
+        for (int i = 0; i < kTile; ++i) set(u + i, v, row[u + i]);
       }
-      for (; u < edges.cols; ++u) take(u, v, row[u]);
+      for (; u < edges.cols; ++u) set(u, v, row[u]);
     }
   }
 
@@ -159,7 +170,7 @@ class Walker {
       if (std::abs(t - centre) < std::abs(best - centre)) best = t;
     }
     const std::size_t pixel = pixelOf(static_cast<std::size_t>(s), static_cast<std::size_t>(best));
-    samples.push_back({static_cast<double>(s), best + shiftAt(s, best), codes_[pixel] - 1});
+    samples.push_back({static_cast<double>(s), best + shiftAt(s, best), best, codes_[pixel] - 1});
   }
 
   int gray(int s, int t) const { return gray_[s * gray_s_ + t * gray_t_]; }
@@ -191,6 +202,7 @@ class Walker {
   int length_, width_;
   std::size_t tiles_;                      ///< along
   Tiles rising_, falling_;                 ///< edge pixels
+  Tiles free_rising_, free_falling_;       ///< those of no line yet
   Tiles measured_;                         ///< those whose shift is known
   std::unique_ptr<double[]> shifts_;       ///< px from the pixel's centre; those along s together
   std::unique_ptr<std::uint8_t[]> codes_;  ///< of edge pixels, likewise

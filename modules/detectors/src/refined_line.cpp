@@ -149,28 +149,34 @@ std::optional<RefinedLine> fitRun(Samples& samples, bool steep, int sign,
   return result;
 }
 
-/// Which way the gradient points in the image, roughly.
-Eigen::Vector2d gradientDirection(const RefinedLine& line) {
-  const Eigen::Vector2d normal =
-      line.steep ? Eigen::Vector2d(1.0, -line.slope) : Eigen::Vector2d(-line.slope, 1.0);
-  return line.gradient_sign * normal.normalized();
-}
+/// What a line is compared by.
+struct Placed {
+  Eigen::Vector2d begin, end;  ///< px
+  Eigen::Vector2d gradient;    ///< unit: which way it points, roughly
+  double length = 0.0;
+
+  explicit Placed(const RefinedLine& line)
+      : begin(line.at(line.begin)),
+        end(line.at(line.end)),
+        gradient(line.gradient_sign * (line.steep ? Eigen::Vector2d(1.0, -line.slope)
+                                                  : Eigen::Vector2d(-line.slope, 1.0))
+                                          .normalized()),
+        length(line.length()) {}
+};
 
 /// `line` says nothing that the longer `kept` does not say.
-bool isDuplicate(const RefinedLine& line, const RefinedLine& kept, double duplicate_px) {
-  const Eigen::Vector2d normal = gradientDirection(kept);
-  if (normal.dot(gradientDirection(line)) < 0.5) return false;
-  const Eigen::Vector2d a = kept.at(kept.begin);
-  const Eigen::Vector2d along = (kept.at(kept.end) - a).normalized();
+bool isDuplicate(const Placed& line, const Placed& kept, double duplicate_px) {
+  if (kept.gradient.dot(line.gradient) < 0.5) return false;
+  const Eigen::Vector2d along = (kept.end - kept.begin).normalized();
   double low = 1e9;
   double high = -1e9;
-  for (const double s : {line.begin, line.end}) {
-    const Eigen::Vector2d offset = line.at(s) - a;
-    if (std::abs(normal.dot(offset)) > duplicate_px) return false;
+  for (const Eigen::Vector2d& end : {line.begin, line.end}) {
+    const Eigen::Vector2d offset = end - kept.begin;
+    if (std::abs(kept.gradient.dot(offset)) > duplicate_px) return false;
     low = std::min(low, along.dot(offset));
     high = std::max(high, along.dot(offset));
   }
-  const double overlap = std::min(high, kept.length()) - std::max(low, 0.0);
+  const double overlap = std::min(high, kept.length) - std::max(low, 0.0);
   return overlap > 0.4 * (high - low);
 }
 
@@ -191,7 +197,7 @@ bool isFitted(const Straight& line, const Samples& samples, bool steep, int sign
 }  // namespace
 
 void LineRefiner::refine(const Straight& guess, RefinedLines& lines) {
-  walker_.collect(guess, options_.search_px, rising_, falling_);
+  walker_.collectFree(guess, options_.search_px, rising_, falling_);
   for (const int sign : {1, -1}) {
     const Samples& candidates = sign > 0 ? rising_ : falling_;
     if (static_cast<double>(candidates.size()) <
@@ -200,7 +206,7 @@ void LineRefiner::refine(const Straight& guess, RefinedLines& lines) {
     }
     const auto agreed = consensus(candidates, options_.inlier_px);
     if (!agreed || isFitted(*agreed, candidates, steep_, sign, lines)) continue;
-    walker_.collect(*agreed, 2.0 * options_.inlier_px, sign, beside_);
+    walker_.collectAll(*agreed, 2.0 * options_.inlier_px, sign, beside_);
     copyWithin(beside_, *agreed, options_.inlier_px, some_);
     const auto fitted = leastSquares(some_, nullptr);
     if (!fitted) continue;
@@ -210,7 +216,10 @@ void LineRefiner::refine(const Straight& guess, RefinedLines& lines) {
       rest = rest.subspan(run.size());
       if (run.back().s - run.front().s < 0.7 * options_.min_length_px) continue;
       some_.assign(run.begin(), run.end());
-      if (const auto line = fitRun(some_, steep_, sign, options_)) lines.push_back(*line);
+      const auto line = fitRun(some_, steep_, sign, options_);
+      if (!line) continue;
+      lines.push_back(*line);
+      walker_.take(some_, sign);
     }
   }
 }
@@ -222,12 +231,14 @@ RefinedLines withoutDuplicates(RefinedLines lines, double duplicate_px) {
   std::sort(lines.begin(), lines.end(),
             [&](const RefinedLine& a, const RefinedLine& b) { return rank(a) < rank(b); });
   RefinedLines kept;
+  std::vector<Placed> places;
   for (const auto& line : lines) {
-    if (std::none_of(kept.begin(), kept.end(), [&](const RefinedLine& longer) {
-          return isDuplicate(line, longer, duplicate_px);
-        })) {
-      kept.push_back(line);
-    }
+    const Placed place(line);
+    if (std::any_of(places.begin(), places.end(),
+                    [&](const Placed& longer) { return isDuplicate(place, longer, duplicate_px); }))
+      continue;
+    kept.push_back(line);
+    places.push_back(place);
   }
   return kept;
 }
