@@ -3,9 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "colonnade/frames/floor_plane.hpp"
@@ -94,6 +98,58 @@ TEST(Recordings, BareWallsGiveFloorEdgesAndCornersInEveryFrame) {
     EXPECT_GE(accepted(all, LandmarkKind::kFloorEdge).size(), 2U) << i;
     EXPECT_GE(accepted(all, LandmarkKind::kDepthSlope).size(), 2U) << i;
     EXPECT_LE(accepted(all, LandmarkKind::kDepthSlope).size(), 6U) << i;
+  }
+}
+
+/// Distance of every pixel from the border of the mask within the picture, px.
+cv::Mat distanceFromBorder(const cv::Mat& mask) {
+  cv::Mat floor = mask > 127, eroded;
+  cv::erode(floor, eroded, cv::Mat(), {-1, -1}, 1, cv::BORDER_REPLICATE);
+  cv::Mat distance;
+  cv::distanceTransform((floor & ~eroded) == 0, distance, cv::DIST_L2, cv::DIST_MASK_PRECISE);
+  return distance;
+}
+
+/// Two photographs without depth or calibration (a level camera of usual field of view is assumed)
+/// whose floor was masked by hand. The mask of the first ends some 13 px before the skirting boards
+/// on which the detected edges lie; that of the second is ragged by a few pixels.
+TEST(Recordings, FloorEdgesLieOnTheBorderOfFloorMasks) {
+  COLONNADE_REQUIRE_RECORDING(folder, "corridor_images");
+  const std::pair<std::string, float> kPictures[] = {{"0050", 16.0F}, {"0115", 5.0F}};
+  for (const auto& [number, within_px] : kPictures) {
+    Frame frame;
+    frame.colour = cv::imread((folder / ("rgb_" + number + ".png")).string(), cv::IMREAD_COLOR);
+    ASSERT_FALSE(frame.colour.empty());
+    cv::cvtColor(frame.colour, frame.gray, cv::COLOR_BGR2GRAY);
+    const int width = frame.gray.cols, height = frame.gray.rows;
+    frame.camera = {width, height, 525.0, 525.0, 0.5 * (width - 1), 0.5 * (height - 1)};
+    frame.T_robot_camera = cameraAboveFloor(Eigen::Vector3d(0.0, -1.0, 0.0), 1.0);
+    const cv::Mat mask =
+        cv::imread((folder / ("label_" + number + ".png")).string(), cv::IMREAD_GRAYSCALE);
+    ASSERT_EQ(mask.size(), frame.gray.size());
+    const cv::Mat distance = distanceFromBorder(mask);
+    const auto backend = makeEdgeLineBackend(kDefaultBackend, {});
+    const auto edges = accepted(DetectorBank().detect(frame, backend->extract(frame.gray)),
+                                LandmarkKind::kFloorEdge);
+    EXPECT_GE(edges.size(), 2U) << number;
+    std::vector<float> off_px;
+    for (const auto& edge : edges)
+      for (int i = 0; i <= 50; ++i) {
+        const Eigen::Vector2d p = edge.a_px + (edge.b_px - edge.a_px) * i / 50.0;
+        const cv::Point pixel(static_cast<int>(std::lround(p.x())),
+                              static_cast<int>(std::lround(p.y())));
+        if (cv::Rect(0, 0, width, height).contains(pixel))
+          off_px.push_back(distance.at<float>(pixel));
+      }
+    ASSERT_FALSE(off_px.empty());
+    std::sort(off_px.begin(), off_px.end());
+    const float median_px = off_px[off_px.size() / 2], most_px = off_px[off_px.size() * 9 / 10];
+    RecordProperty("median_px_" + number, std::to_string(median_px));
+    std::printf("%s: %zu edges, %.1f px from the mask's border (median), %.1f px (90 %%)\n",
+                number.c_str(), edges.size(), static_cast<double>(median_px),
+                static_cast<double>(most_px));
+    EXPECT_LT(median_px, within_px) << number;
+    EXPECT_LT(most_px, within_px + 5.0F) << number;
   }
 }
 
