@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "floor_tracker.hpp"
 #include "fusion.hpp"
 #include "planar_reduction.hpp"
 #include "wheel_odometry.hpp"
@@ -26,6 +27,8 @@ const char* name(MotionSource source) {
       return "photometric_icp";
     case MotionSource::kIcp:
       return "icp";
+    case MotionSource::kFloor:
+      return "floor";
     case MotionSource::kConstantVelocity:
       return "constant_velocity";
   }
@@ -34,10 +37,11 @@ const char* name(MotionSource source) {
 
 struct MotionEstimator::Impl {
   Impl(const MotionOptions& motion_options, std::shared_ptr<CameraTracker> camera_tracker)
-      : options(motion_options), tracker(std::move(camera_tracker)) {}
+      : options(motion_options), tracker(std::move(camera_tracker)), floor(motion_options) {}
 
   MotionOptions options;
   std::shared_ptr<CameraTracker> tracker;
+  FloorTracker floor;
   std::optional<std::size_t> previous_index;
   double previous_stamp_s = 0.0;
   std::optional<OdometryReading> previous_odometry;
@@ -49,16 +53,20 @@ struct MotionEstimator::Impl {
   bool mayUseOdometry() const { return options.source == "auto" || options.source == "odometry"; }
   bool mayUseVisual() const { return options.source == "auto" || options.source == "visual"; }
 
+  /// The motion of a step of dt_s at the former velocity.
+  Pose2 formerVelocity(double dt_s) const {
+    if (previous_dt_s <= 0.0) return {};
+    const double factor = std::clamp(dt_s / previous_dt_s, 0.0, 5.0);
+    return {factor * previous_increment.x, factor * previous_increment.y,
+            factor * previous_increment.phi};
+  }
+
   /// The former velocity in the plane, for frames that nothing else measures.
   MotionIncrement coast(double dt_s) {
     MotionIncrement increment;
     increment.source = MotionSource::kConstantVelocity;
     coasted_s += dt_s;
-    if (previous_dt_s > 0.0 && coasted_s < 1.0) {
-      const double factor = std::clamp(dt_s / previous_dt_s, 0.0, 5.0);
-      increment.T_previous_robot = {factor * previous_increment.x, factor * previous_increment.y,
-                                    factor * previous_increment.phi};
-    }
+    if (coasted_s < 1.0) increment.T_previous_robot = formerVelocity(dt_s);
     // The unknown change of velocity lasts: errors of consecutive frames add up, not their squares.
     const double lasting = dt_s > 0.0 ? std::clamp(coasted_s / dt_s, 1.0, 3.0) : 1.0;
     const double step = lasting * options.coasting_speed_sigma_m_s * dt_s + 1e-3;
@@ -79,6 +87,14 @@ struct MotionEstimator::Impl {
     return reduceToPlane(motion, T_robot_camera_previous, mounting);
   }
 
+  /// Without depth: the floor's texture. The guess is the wheels' motion, else the former velocity.
+  std::optional<MotionIncrement> byFloor(const Frame& frame,
+                                         const std::optional<MotionIncrement>& wheels,
+                                         double dt_s) {
+    if (!mayUseVisual() || !options.use_floor || !frame.depth_m.empty()) return std::nullopt;
+    return floor.track(frame, wheels ? wheels->T_previous_robot : formerVelocity(dt_s));
+  }
+
   /// Direct alignment is local: after a longer step it may rest in a wrong minimum and be sure of
   /// it.
   bool isWithinReach(const MotionIncrement& wheels) const {
@@ -86,9 +102,19 @@ struct MotionEstimator::Impl {
            std::abs(wheels.T_previous_robot.phi) <= options.visual_reach_angle;
   }
 
+  /// A turn brings floor and walls into view that no former frame has told apart.
+  bool isSharpTurn(const MotionIncrement& motion) const {
+    constexpr double kStill = radians(0.3);
+    return std::abs(motion.T_previous_robot.phi) >
+           kStill + options.floor_turn_per_m * motion.T_previous_robot.translation().norm();
+  }
+
   MotionIncrement measure(const Frame& frame, const MountingAtFrame& mounting, double dt_s) {
     const auto wheels = byWheels(frame);
-    const auto camera = byCamera(frame, mounting);
+    auto camera = byCamera(frame, mounting);
+    if (!camera) camera = byFloor(frame, wheels, dt_s);
+    if (camera && wheels && camera->source == MotionSource::kFloor && isSharpTurn(*wheels))
+      camera.reset();
     if (wheels && camera && camera->source != MotionSource::kConstantVelocity &&
         isWithinReach(*wheels))
       return fuse(*wheels, *camera);
@@ -115,8 +141,9 @@ MotionIncrement MotionEstimator::increment(const Frame& frame,
       self.previous_increment = result.T_previous_robot;
       self.previous_dt_s = dt_s;
     }
-  } else if (self.mayUseVisual() && !frame.depth_m.empty()) {
-    self.tracker->track(frame);
+  } else {
+    if (self.mayUseVisual() && !frame.depth_m.empty()) self.tracker->track(frame);
+    self.byFloor(frame, std::nullopt, 0.0);
   }
   self.previous_index = frame.index;
   self.previous_stamp_s = frame.stamp_s;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace colonnade {
 namespace {
@@ -22,22 +23,39 @@ struct Projection {
         fy(static_cast<float>(camera.fy_px)),
         cx(static_cast<float>(camera.cx_px)),
         cy(static_cast<float>(camera.cy_px)) {}
+  Eigen::Vector3f inCamera(const Eigen::Vector3f& p_reference) const { return R * p_reference + t; }
+
   Eigen::Matrix3f R;
   Eigen::Vector3f t;
   float fx, fy, cx, cy;
 };
 
+/// Where a point is seen, if it is within the picture, with the neighbours bilinear values need.
+struct Pixel {
+  float u, v;
+};
+std::optional<Pixel> pixelOf(const Eigen::Vector3f& q, const Projection& projection,
+                             const PyramidLevel& level) {
+  if (!(q.z() > 0.2f)) return std::nullopt;
+  const float u = projection.fx * q.x() / q.z() + projection.cx;
+  const float v = projection.fy * q.y() / q.z() + projection.cy;
+  const float u_max = static_cast<float>(level.intensity.cols) - 2.001f;
+  const float v_max = static_cast<float>(level.intensity.rows) - 2.001f;
+  if (!(u >= 1.0f && v >= 1.0f && u < u_max && v < v_max)) return std::nullopt;
+  return Pixel{u, v};
+}
+
 /// The four channels of a pixel, bilinear.
 Eigen::Vector4f sample(const cv::Mat& intensity, float u, float v) {
-  using Pixel = Eigen::Map<const Eigen::Vector4f>;
+  using Channels = Eigen::Map<const Eigen::Vector4f>;
   const int iu = static_cast<int>(u);
   const int iv = static_cast<int>(v);
   const float a = u - static_cast<float>(iu);
   const float b = v - static_cast<float>(iv);
   const auto* upper = intensity.ptr<float>(iv) + 4 * iu;
   const auto* lower = intensity.ptr<float>(iv + 1) + 4 * iu;
-  return (1.0f - b) * ((1.0f - a) * Pixel(upper) + a * Pixel(upper + 4)) +
-         b * ((1.0f - a) * Pixel(lower) + a * Pixel(lower + 4));
+  return (1.0f - b) * ((1.0f - a) * Channels(upper) + a * Channels(upper + 4)) +
+         b * ((1.0f - a) * Channels(lower) + a * Channels(lower + 4));
 }
 
 /// Sum of w var(n) J^T J with J = (I, -[q]x): what random normals would add to H.
@@ -67,8 +85,6 @@ NormalEquations photometricEquations(const std::vector<PhotometricPoint>& points
                                      const PyramidLevel& current, const AlignmentState& state,
                                      ResidualBuffer& buffer) {
   const Projection projection(state, current.camera);
-  const float u_max = static_cast<float>(current.intensity.cols) - 2.001f;
-  const float v_max = static_cast<float>(current.intensity.rows) - 2.001f;
   const auto gain = static_cast<float>(1.0 + state.gain);
   const auto bias = static_cast<float>(state.bias);
   float shared_gradient = 0.0f;
@@ -76,12 +92,11 @@ NormalEquations photometricEquations(const std::vector<PhotometricPoint>& points
   buffer.rows.clear();
   buffer.magnitudes.clear();
   for (const PhotometricPoint& point : points) {
-    const Eigen::Vector3f q = projection.R * point.p_reference + projection.t;
-    if (!(q.z() > 0.2f)) continue;
+    const Eigen::Vector3f q = projection.inCamera(point.p_reference);
+    const auto pixel = pixelOf(q, projection, current);
+    if (!pixel) continue;
+    const auto [u, v] = *pixel;
     const float inverse_z = 1.0f / q.z();
-    const float u = projection.fx * q.x() * inverse_z + projection.cx;
-    const float v = projection.fy * q.y() * inverse_z + projection.cy;
-    if (!(u >= 1.0f && v >= 1.0f && u < u_max && v < v_max)) continue;
     // Hidden behind something nearer: another surface's brightness.
     const float seen =
         current.depth_m.at<float>(static_cast<int>(v + 0.5f), static_cast<int>(u + 0.5f));
@@ -105,6 +120,22 @@ NormalEquations photometricEquations(const std::vector<PhotometricPoint>& points
   return equations;
 }
 
+std::vector<float> brightnessResiduals(const std::vector<PhotometricPoint>& points,
+                                       const PyramidLevel& current, const AlignmentState& state) {
+  const Projection projection(state, current.camera);
+  const auto gain = static_cast<float>(1.0 + state.gain);
+  const auto bias = static_cast<float>(state.bias);
+  std::vector<float> residuals;
+  residuals.reserve(points.size());
+  for (const PhotometricPoint& point : points) {
+    const auto pixel = pixelOf(projection.inCamera(point.p_reference), projection, current);
+    residuals.push_back(pixel ? std::abs(sample(current.intensity, pixel->u, pixel->v)[0] -
+                                         gain * point.brightness - bias)
+                              : -1.0f);
+  }
+  return residuals;
+}
+
 NormalEquations surfaceEquations(const std::vector<SurfacePoint>& points,
                                  const PyramidLevel& current, const AlignmentState& state,
                                  float gate_m, double weak_direction_ratio,
@@ -116,7 +147,7 @@ NormalEquations surfaceEquations(const std::vector<SurfacePoint>& points,
   buffer.rows.clear();
   buffer.magnitudes.clear();
   for (const SurfacePoint& point : points) {
-    const Eigen::Vector3f q = projection.R * point.p_reference + projection.t;
+    const Eigen::Vector3f q = projection.inCamera(point.p_reference);
     if (!(q.z() > 0.2f)) continue;
     const float u = projection.fx * q.x() / q.z() + projection.cx + 0.5f;
     const float v = projection.fy * q.y() / q.z() + projection.cy + 0.5f;

@@ -26,10 +26,15 @@ struct ResidualBuffer {
 };
 
 /// Brightness of the reference's points against the current image, bilinear; the gradient is the
-/// mean of both images' (as in ESM, Malis 2004). Points hidden in the current depth are left out.
+/// mean of both images' (as in ESM, Malis 2004). Points hidden in the current depth are left out;
+/// an uncertain depth takes weight where it would move the point along its gradient.
 NormalEquations photometricEquations(const std::vector<PhotometricPoint>& points,
                                      const PyramidLevel& current, const AlignmentState& state,
                                      ResidualBuffer& buffer);
+
+/// |residual| of each point, -1 for those out of view.
+std::vector<float> brightnessResiduals(const std::vector<PhotometricPoint>& points,
+                                       const PyramidLevel& current, const AlignmentState& state);
 
 /// Distance of the current depth from the reference's surfaces along their normals, each pixel
 /// associated by projection (Blais and Levine 1995), within `gate_m` or 4 sigma.

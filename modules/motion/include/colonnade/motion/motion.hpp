@@ -16,6 +16,7 @@ enum class MotionSource {
   kPhotometric,
   kPhotometricIcp,
   kIcp,
+  kFloor,  ///< the floor's texture, where there is no depth
   kConstantVelocity
 };
 const char* name(MotionSource source);

@@ -30,6 +30,10 @@ struct MotionOptions {
   std::string engine = "direct";
   bool use_photometric = true;
   bool use_surfaces = true;
+  bool use_floor = true;  ///< where there is no depth and the log knows the mounting
+  double floor_turn_per_m = radians(15.0);
+  double floor_keyframe_m = 0.3;
+  double floor_scale = 0.005;  ///< of ways: height and tilt of the camera
   double keyframe_distance_m = 0.15;
   double keyframe_angle = radians(8.0);
   double keyframe_share = 0.6;  ///< of the key frame's points still compared
@@ -64,6 +68,12 @@ struct MotionOptions {
              "visual odometry: own direct alignment, or one of OpenCV's");
     v.flag("use_photometric", use_photometric, "compare brightness");
     v.flag("use_surfaces", use_surfaces, "compare surfaces, point to plane");
+    v.flag("use_floor", use_floor, "without depth: follow the floor's texture");
+    v.number("floor_keyframe_m", floor_keyframe_m, {0, 5}, "its key frame dropped after this way");
+    v.angle("floor_turn_deg_per_m", floor_turn_per_m, {0, 1000},
+            "sharper turns are left to the wheels, where there are any");
+    v.number("floor_scale", floor_scale, {0, 1},
+             "sigma of its scale: camera height and tilt; as if drawn anew after each metre");
     v.number("keyframe_distance_m", keyframe_distance_m, {0, 5},
              "key frame dropped after this way");
     v.angle("keyframe_angle_deg", keyframe_angle, {0, 90}, "key frame dropped after this turn");
