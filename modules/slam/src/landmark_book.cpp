@@ -55,6 +55,10 @@ bool LandmarkBook::isAsleep(LandmarkId landmark) const {
   return page != pages_.end() && page->second.asleep;
 }
 
+void LandmarkBook::wakeAll() {
+  for (auto& [id, page] : pages_) page.asleep = false;
+}
+
 void LandmarkBook::observeTogether(const std::vector<LandmarkId>& landmarks) {
   for (const LandmarkId id : landmarks) {
     auto& company = pages_[id].company;

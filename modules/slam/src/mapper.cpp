@@ -113,7 +113,9 @@ MapperReport Mapper::advance(const Observation& seen) {
   const bool has_depth = !seen.walls.empty() || !seen.sight.rays.empty();
   axes.step(frame, has_depth ? seen.walls : floorEdgeDirections(seen.detections), noise_scale,
             filter, report.events);
-  loops.updateSleep(filter, landmarks);
+  // Who sleeps is woken by landmarks founded beside it. Where none are, the joint test of the
+  // association alone has to keep neighbours apart.
+  if (grows) loops.updateSleep(filter, landmarks);
   report.association = association_.match(seen.detections, filter, landmarks);
   const auto used = filter.update(report.association.matches, noise_scale);
   const auto matched = book(seen, report.association, used, filter, landmarks);
@@ -198,6 +200,7 @@ void Mapper::dropBearings(Estimate& estimate) {
 void Mapper::settleInMap() {
   auto& e = estimate_;
   e.grows = false;
+  e.landmarks.wakeAll();
   e.initializer = Initializer(options_.initialization);
   std::vector<LandmarkId> own;
   for (const Block& block : e.filter.state().blocks)

@@ -41,6 +41,7 @@ class LandmarkBook {
   /// its place relative to the robot so uncertain that its neighbours fit as well.
   void setAsleep(LandmarkId landmark, bool asleep) { pages_[landmark].asleep = asleep; }
   bool isAsleep(LandmarkId landmark) const;
+  void wakeAll();
 
   /// Whether two landmarks were matched in one frame: then they are two.
   bool seenTogether(LandmarkId a, LandmarkId b) const;
