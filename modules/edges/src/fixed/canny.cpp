@@ -106,9 +106,9 @@ CannyResult canny(const cv::Mat& gray, const FixedParameters& parameters, int hy
       }
       for (std::uint64_t rest = strong[at]; rest != 0; rest &= rest - 1) {
         const int column = 64 * i + std::countr_zero(rest);
-        PixelList& list = result.of_direction[(code[column] - 1) & 3];
-        list.x.push_back(static_cast<std::int16_t>(column - gray.cols / 2));
-        list.y.push_back(static_cast<std::int16_t>(row - gray.rows / 2));
+        result.of_direction[(code[column] - 1) & 3].push_back(
+            {static_cast<std::int16_t>(column - gray.cols / 2),
+             static_cast<std::int16_t>(row - gray.rows / 2)});
       }
     }
   }

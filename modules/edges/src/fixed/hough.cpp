@@ -31,15 +31,14 @@ int classOf(int theta_deg, const FixedParameters& parameters) {
 }
 
 /// Adds the votes of the pixels from `first` on.
-void vote(const PixelList& pixels, std::size_t first, const AngleEntry& angle, int reach,
+void vote(const std::vector<Pixel>& pixels, std::size_t first, const AngleEntry& angle, int reach,
           unsigned short* bins) {
   constexpr std::size_t kBlock = 512;
   std::int32_t block[kBlock];
   const int offset = (reach << kAngleFraction) + (1 << (kAngleFraction - 1));
-  for (std::size_t i = first; i < pixels.x.size(); i += kBlock) {
-    const std::size_t count = std::min(kBlock, pixels.x.size() - i);
-    rhoBins(pixels.x.data() + i, pixels.y.data() + i, static_cast<int>(count), angle.cosine,
-            angle.sine, offset, block);
+  for (std::size_t i = first; i < pixels.size(); i += kBlock) {
+    const std::size_t count = std::min(kBlock, pixels.size() - i);
+    rhoBins(pixels.data() + i, static_cast<int>(count), angle.cosine, angle.sine, offset, block);
     for (std::size_t k = 0; k < count; ++k) ++bins[block[k]];
   }
 }
@@ -73,10 +72,11 @@ std::vector<FixedLine> houghLines(const CannyResult& edges, const FixedShape& sh
   const int first_y = parameters.first_row - edges.edges.rows / 2;
   std::array<std::size_t, 4> first_inclined{};
   for (std::size_t d = 0; d < 4; ++d) {
-    const auto& y = edges.of_direction[d].y;
+    const auto& pixels = edges.of_direction[d];
     first_inclined[d] = static_cast<std::size_t>(
-        std::lower_bound(y.begin(), y.end(), first_y, [](int a, int b) { return a < b; }) -
-        y.begin());
+        std::lower_bound(pixels.begin(), pixels.end(), first_y,
+                         [](const Pixel& pixel, int y) { return pixel.y < y; }) -
+        pixels.begin());
   }
   const auto enabled = [&](std::size_t a) {
     return parameters.enabled.empty() || (a < parameters.enabled.size() && parameters.enabled[a]);
@@ -99,8 +99,9 @@ std::vector<FixedLine> houghLines(const CannyResult& edges, const FixedShape& sh
     const int line_class = classOf(angles[a], parameters);
     const int least = line_class == 0 ? parameters.vertical_votes : parameters.inclined_votes;
     const unsigned short* bins = binsOf(a);
-    for (int bin = 0; bin <= 2 * reach; ++bin) {
-      if (bins[bin] < least) continue;
+    const int count = 2 * reach + 1;
+    for (int bin = nextAtLeast(bins, 0, count, least); bin < count;
+         bin = nextAtLeast(bins, bin + 1, count, least)) {
       if (!isPeak(has_former ? binsOf(a - 1) : nullptr, bins, has_later ? binsOf(a + 1) : nullptr,
                   bin)) {
         continue;

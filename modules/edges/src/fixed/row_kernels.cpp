@@ -93,31 +93,44 @@ void suppressRow(const std::uint16_t* above, const std::uint16_t* here, const st
   const auto least = static_cast<std::uint16_t>(low);
   const auto enough = static_cast<std::uint16_t>(high);
   for (int i = 0; i < width; ++i) {
+    // All eight neighbours are read, whatever the direction: a load under a condition is no vector.
+    const std::uint16_t m = c[i], left = c[i - 1], right = c[i + 1];
+    const std::uint16_t nw = p[i - 1], north = p[i], ne = p[i + 1];
+    const std::uint16_t sw = n[i - 1], south = n[i], se = n[i + 1];
     const auto direction = static_cast<std::uint16_t>(s[i] & 3);
-    std::uint16_t before = c[i - 1];
-    std::uint16_t behind = c[i + 1];
-    before = direction == 1 ? p[i - 1] : before;
-    behind = direction == 1 ? n[i + 1] : behind;
-    before = direction == 2 ? p[i] : before;
-    behind = direction == 2 ? n[i] : behind;
-    before = direction == 3 ? p[i + 1] : before;
-    behind = direction == 3 ? n[i - 1] : behind;
-    const std::uint16_t m = c[i];
-    const std::uint16_t kept = (m > least) & (m > before) & (m >= behind);
-    code[i] = static_cast<std::uint8_t>(kept ? s[i] + 1 : 0);
-    above_high[i] = static_cast<std::uint8_t>(kept & (m > enough));
+    std::uint16_t before = direction == 1 ? nw : left;
+    std::uint16_t behind = direction == 1 ? se : right;
+    before = direction == 2 ? north : before;
+    behind = direction == 2 ? south : behind;
+    before = direction == 3 ? ne : before;
+    behind = direction == 3 ? sw : behind;
+    auto kept = static_cast<std::uint16_t>(m > least ? s[i] + 1 : 0);
+    kept = m > before ? kept : std::uint16_t{0};
+    kept = m >= behind ? kept : std::uint16_t{0};
+    code[i] = static_cast<std::uint8_t>(kept);
+    above_high[i] = static_cast<std::uint8_t>(m > enough ? kept : std::uint16_t{0});
   }
 }
 
 COLONNADE_VECTOR_KERNEL
-void rhoBins(const std::int16_t* x, const std::int16_t* y, int count, int cosine, int sine,
-             int offset, std::int32_t* bins) {
-  const std::int16_t* __restrict px = x;
-  const std::int16_t* __restrict py = y;
+void rhoBins(const Pixel* pixels, int count, int cosine, int sine, int offset, std::int32_t* bins) {
+  const Pixel* __restrict at = pixels;
   std::int32_t* __restrict out = bins;
   for (int i = 0; i < count; ++i) {
-    out[i] = (px[i] * cosine + py[i] * sine + offset) >> kAngleFraction;
+    out[i] = (at[i].x * cosine + at[i].y * sine + offset) >> kAngleFraction;
   }
+}
+
+COLONNADE_VECTOR_KERNEL
+int nextAtLeast(const std::uint16_t* votes, int from, int count, int least) {
+  constexpr int kBlock = 64;
+  for (; from + kBlock <= count; from += kBlock) {
+    std::uint16_t most = 0;
+    for (int i = 0; i < kBlock; ++i) most = std::max(most, votes[from + i]);
+    if (most >= least) break;
+  }
+  while (from < count && votes[from] < least) ++from;
+  return from;
 }
 
 void packBits(const std::uint8_t* bytes, int width, std::uint64_t* words) {
@@ -126,16 +139,12 @@ void packBits(const std::uint8_t* bytes, int width, std::uint64_t* words) {
     const int end = std::min(64, width - start);
     int i = 0;
     for (; i + 8 <= end; i += 8) {
-      std::uint64_t eight;
-      std::memcpy(&eight, bytes + start + i,
-                  8);  // byte 0 lowest: little endian, as everywhere here
-      if (eight == 0) continue;
-      // Any bit of a byte to its lowest bit, then the eight of them side by side.
-      eight |= eight >> 4;
-      eight |= eight >> 2;
-      eight |= eight >> 1;
-      eight &= 0x0101010101010101U;
-      word |= (eight * 0x0102040810204080U >> 56) << i;
+      std::uint64_t eight;  // byte 0 lowest: little endian, as everywhere here
+      std::memcpy(&eight, bytes + start + i, 8);
+      // The highest bit of each byte says whether it is not zero; the product puts them side by
+      // side.
+      eight = (eight + 0x7f7f7f7f7f7f7f7fU) & 0x8080808080808080U;
+      word |= (eight * 0x0002040810204081U >> 56) << i;
     }
     for (; i < end; ++i) word |= static_cast<std::uint64_t>(bytes[start + i] != 0) << i;
     words[start / 64] = word;

@@ -22,16 +22,25 @@ void gradientRow(const std::uint8_t* above, const std::uint8_t* here, const std:
 
 /// Non-maximum suppression and thresholds of one row. magnitudes: rows above, here, below with one
 /// zero before and behind. codes receives 1 + sector where the magnitude is a maximum above `low`,
-/// else 0; strong 1 where it is also above `high`.
+/// else 0; strong the same where it is also above `high`.
 void suppressRow(const std::uint16_t* above, const std::uint16_t* here, const std::uint16_t* below,
                  const std::uint16_t* sector, int width, int low, int high, std::uint8_t* codes,
                  std::uint8_t* strong);
 
 /// Packs the bytes that are not zero into bits, column 0 lowest; the last word is filled with 0.
+/// No byte may be above 128.
 void packBits(const std::uint8_t* bytes, int width, std::uint64_t* words);
 
-/// bins[i] = (x[i] cosine + y[i] sine + offset) >> kAngleFraction.
-void rhoBins(const std::int16_t* x, const std::int16_t* y, int count, int cosine, int sine,
-             int offset, std::int32_t* bins);
+/// An edge pixel, from the image's centre.
+struct Pixel {
+  std::int16_t x;
+  std::int16_t y;
+};
+
+/// bins[i] = (x cosine + y sine + offset) >> kAngleFraction of pixel i.
+void rhoBins(const Pixel* pixels, int count, int cosine, int sine, int offset, std::int32_t* bins);
+
+/// The first place in [from, count) with at least that many votes; count if there is none.
+int nextAtLeast(const std::uint16_t* votes, int from, int count, int least);
 
 }  // namespace colonnade::fixed
