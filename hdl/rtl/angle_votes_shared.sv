@@ -35,29 +35,20 @@ module angle_votes_shared #(
   localparam int RHO_WIDTH = $clog2(BINS) + FRACTION;
   localparam int ENTRY = 4 + ADDRESS_WIDTH + 2 * TRIG;
 
-  // {admitted directions, first address, sin, cos} of each slot, and the one whose turn it is: picked
-  // by comparison, since an index into the whole table would become a shifter as wide as the table.
-  logic [SLOTS*ENTRY-1:0] table_all;
-  for (genvar s = 0; s < SLOTS; s++) begin : g_slot
-    if (FIRST + s < ANGLES) begin : g_used
+  // {admitted directions, first address, sin, cos} of each slot.
+  logic [(1<<SLOT_WIDTH)*ENTRY-1:0] table_all;
+  logic [(1<<SLOT_WIDTH)*2-1:0] allow_all;
+  for (genvar s = 0; s < (1 << SLOT_WIDTH); s++) begin : g_slot
+    if (s < SLOTS && FIRST + s < ANGLES) begin : g_used
       localparam int ANGLE = 32'(ANGLE_SET[(FIRST+s)*8 +: 8]);
       assign table_all[s*ENTRY +: ENTRY] = {
         accelerator_pkg::ADMIT_TABLE[ANGLE*4 +: 4], ADDRESS_WIDTH'(s * BINS),
         accelerator_pkg::SIN_TABLE[ANGLE*TRIG +: TRIG], accelerator_pkg::COS_TABLE[ANGLE*TRIG +: TRIG]};
+      assign allow_all[s*2 +: 2] = allow_i[s*2 +: 2];
     end else begin : g_unused
       assign table_all[s*ENTRY +: ENTRY] = '0;
+      assign allow_all[s*2 +: 2] = '0;
     end
-  end
-  logic [ENTRY-1:0] entry;
-  logic [1:0] allow;
-  always_comb begin
-    entry = '0;
-    allow = '0;
-    for (int s = 0; s < SLOTS; s++)
-      if (slot_i == SLOT_WIDTH'(s)) begin
-        entry = table_all[s*ENTRY +: ENTRY];
-        allow = allow_i[s*2 +: 2];
-      end
   end
 
   logic [ENTRY-1:0] entry_q;
@@ -76,8 +67,8 @@ module angle_votes_shared #(
   logic [RHO_WIDTH-1:0] rho_q;
   /* verilator lint_on UNUSEDSIGNAL */
   always_ff @(posedge clk_i) begin
-    entry_q <= entry;
-    allowed_q <= allow[1] | (allow[0] & row_counts_i);
+    entry_q <= table_all[slot_i*ENTRY +: ENTRY];
+    allowed_q <= allow_all[slot_i*2+1] | (allow_all[slot_i*2] & row_counts_i);
     direction_q <= direction_i;
     {x_q, y_q} <= {x_i, y_i};
     {bank_q, bank_d1_q, bank_d2_q, vote_bank_q} <= {bank_i, bank_q, bank_d1_q, bank_d2_q};
