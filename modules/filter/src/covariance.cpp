@@ -69,6 +69,21 @@ void transport(Eigen::MatrixXd& P, const Eigen::VectorXd& g) {
   P.selfadjointView<Eigen::Lower>().rankUpdate(g, h);
 }
 
+/// Guivant and Nebot 2001: what a correction with gain P H^T S^-1 does to the resting
+/// part, whose points move by the displacement spread over the `turn`; and the transport of the
+/// state's own rows by M = I + g e^T.
+void carryCorrection(Transfer& transfer, const Eigen::MatrixXd& HPhi, const Eigen::MatrixXd& PHt,
+                     const Eigen::LLT<Eigen::MatrixXd>& S, const Eigen::VectorXd& nu, double turn,
+                     const Eigen::VectorXd& g) {
+  const Eigen::MatrixXd SHPhi = S.solve(HPhi);
+  transfer.Psi.noalias() += HPhi.transpose() * SHPhi;
+  const Eigen::VectorXd step = SHPhi.transpose() * nu;
+  const Eigen::Matrix2d V = spreadOverTurn(turn);
+  transfer.theta += step * Eigen::RowVector3d(1.0, V(0, 0), V(1, 0));
+  transfer.Phi.noalias() -= PHt * SHPhi;
+  if (g.size() > 0) transfer.Phi += g * transfer.Phi.row(2).eval();
+}
+
 void mirrorLowerTriangle(Eigen::MatrixXd& P) {
   for (Eigen::Index column = 1; column < P.cols(); ++column)
     P.col(column).head(column) = P.row(column).head(column).transpose();
@@ -86,6 +101,8 @@ void predictRobot(State& state, const Pose2& T_previous_robot, const Eigen::Matr
   const Eigen::Matrix3d P_robot =
       F * P.topLeftCorner<3, 3>() * F.transpose() + G * Q * G.transpose();
   P.topLeftCorner<3, 3>() = 0.5 * (P_robot + P_robot.transpose());
+  if (state.transfer)
+    state.transfer->Phi.topRows<3>() = (F * state.transfer->Phi.topRows<3>()).eval();
   if (rest == 0) return;
   P.topRightCorner(3, rest) = (F * P.topRightCorner(3, rest)).eval();
   P.bottomLeftCorner(rest, 3) = P.topRightCorner(3, rest).transpose();
@@ -126,9 +143,15 @@ bool correct(State& state, const SparseJacobian& H, const Eigen::VectorXd& nu,
 
   const Eigen::VectorXd G_before = worldTurn(state);
   retract(state, dx, invariant);
-  if (!invariant) return true;
-  transport(state.P, worldTurn(state) - G_before);
-  mirrorLowerTriangle(state.P);
+  Eigen::VectorXd g;
+  if (invariant) {
+    g = worldTurn(state) - G_before;
+    transport(state.P, g);
+    mirrorLowerTriangle(state.P);
+  }
+  if (state.transfer)
+    carryCorrection(*state.transfer, times(H, state.transfer->Phi), PHt, llt, nu,
+                    invariant ? dx(2) : 0.0, g);
   return true;
 }
 
@@ -144,6 +167,12 @@ void augment(State& state, Block block, const BlockVector& values, const SparseJ
   state.P.topRightCorner(n, k) = PJt;
   state.P.bottomLeftCorner(k, n) = PJt.transpose();
   state.P.bottomRightCorner(k, k) = 0.5 * (P_block + P_block.transpose());
+  if (state.transfer) {
+    Eigen::MatrixXd& Phi = state.transfer->Phi;
+    const Eigen::MatrixXd rows = times(J_state, Phi);
+    Phi.conservativeResize(n + k, Eigen::NoChange);
+    Phi.bottomRows(k) = rows;
+  }
   block.offset = static_cast<int>(n);
   state.blocks.push_back(block);
 }
@@ -166,6 +195,13 @@ void replaceBlock(State& state, LandmarkId id, BlockKind kind, const BlockVector
   x << state.x.head(offset), values, state.x.tail(n - offset - before);
   state.P = 0.5 * (P + P.transpose());
   state.x = std::move(x);
+  if (state.transfer) {
+    const Eigen::MatrixXd& Phi = state.transfer->Phi;
+    Eigen::MatrixXd rows(TP.rows(), Phi.cols());
+    rows << Phi.topRows(offset), J * Phi.middleRows(offset, before),
+        Phi.bottomRows(n - offset - before);
+    state.transfer->Phi = std::move(rows);
+  }
   block->block_kind = kind;
   for (Block& other : state.blocks)
     if (other.offset > offset) other.offset += static_cast<int>(after - before);
@@ -181,6 +217,11 @@ void removeBlock(State& state, LandmarkId id) {
   state.P.middleRows(offset, tail) = state.P.bottomRows(tail).eval();
   state.P.middleCols(offset, tail) = state.P.rightCols(tail).eval();
   state.P.conservativeResize(offset + tail, offset + tail);
+  if (state.transfer) {
+    Eigen::MatrixXd& Phi = state.transfer->Phi;
+    Phi.middleRows(offset, tail) = Phi.bottomRows(tail).eval();
+    Phi.conservativeResize(offset + tail, Eigen::NoChange);
+  }
   state.blocks.erase(state.blocks.begin() + (block - state.blocks.data()));
   for (Block& other : state.blocks)
     if (other.offset > offset) other.offset -= static_cast<int>(size);

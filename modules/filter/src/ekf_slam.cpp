@@ -76,6 +76,7 @@ bool EkfSlam::predict(const Pose2& T_previous_robot, const Eigen::Matrix3d& Q) {
     return false;
   }
   predictRobot(state_, T_previous_robot, Q);
+  resting_.workOff();
   return true;
 }
 
@@ -215,7 +216,13 @@ std::optional<LandmarkId> EkfSlam::addLandmark(LandmarkId clone, const Measureme
   return id;
 }
 
+Evidence& EkfSlam::evidence(LandmarkId landmark) {
+  Block* block = state_.find(landmark);
+  return (block ? block : resting_.find(landmark))->evidence;
+}
+
 void EkfSlam::remove(LandmarkId block) {
+  if (isResting(block)) resting_.remove(block);
   const Block* found = state_.find(block);
   if (!found) return;
   if (isFixed(block)) fixed_ -= found->size();

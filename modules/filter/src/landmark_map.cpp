@@ -56,6 +56,7 @@ void fillLine(const State& state, const Block& block, LandmarkRecord& record) {
 }  // namespace
 
 LandmarkMap EkfSlam::landmarkMap() const {
+  if (!resting_.empty()) return EkfSlam(options_, fullState()).landmarkMap();
   LandmarkMap map;
   for (const Block& block : state_.blocks) {
     if (!block.isLandmark() || block.evidence.hypothesis || !isSettledEnough(state_, block)) continue;

@@ -10,6 +10,7 @@
 #include "colonnade/filter/filter_options.hpp"
 #include "colonnade/filter/health.hpp"
 #include "colonnade/filter/landmark_map.hpp"
+#include "colonnade/filter/resting_map.hpp"
 #include "colonnade/filter/state.hpp"
 
 namespace colonnade {
@@ -115,13 +116,24 @@ class EkfSlam {
   /// False: refused.
   bool updateAxis(LandmarkId axis, double direction, double sigma, double noise_scale = 1.0);
 
-  const State& state() const { return state_; }
+  const State& state() const { return state_; }  ///< what is active
   Pose2 pose() const { return state_.T_world_robot(); }
   Eigen::Matrix3d poseCovariance() const { return state_.P.topLeftCorner<3, 3>(); }
-  Evidence& evidence(LandmarkId landmark) { return state_.find(landmark)->evidence; }
+  Evidence& evidence(LandmarkId landmark);
   const InnovationHealth& health() const { return health_; }
   InnovationHealth& health() { return health_; }
   const FilterOptions& options() const { return options_; }
+
+  /// Lets the landmarks around the robot be worked with, and those of `needed` with them, while
+  /// the others rest (RestingMap): what is active grows to twice `active_landmarks` before
+  /// anything rests. Without need nothing happens. state(), updates and gates know active
+  /// landmarks only.
+  void focus(std::span<const LandmarkId> needed);
+  bool isResting(LandmarkId landmark) const { return resting_.find(landmark) != nullptr; }
+  /// Resting landmarks a measurement with range may be of.
+  std::vector<LandmarkId> restingNear(const Measurement& measurement) const;
+  /// The state with all landmarks active, up to date. A copy of everything where some rest.
+  State fullState() const;
 
   /// All landmarks as exporters want them.
   LandmarkMap landmarkMap() const;
@@ -131,6 +143,7 @@ class EkfSlam {
 
   FilterOptions options_;
   State state_;
+  RestingMap resting_;
   InnovationHealth health_;
   std::int32_t next_id_ = 0;
   Eigen::Index fixed_ = 0;  ///< entries of x after the robot that no correction moves

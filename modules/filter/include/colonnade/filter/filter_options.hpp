@@ -13,6 +13,7 @@ struct FilterOptions {
   double gate_probability = 0.99;
   double inverse_depth_linearity = 0.1;
   double error_correlation_s = 1.0;
+  int active_landmarks = 40;
 
   void visit(OptionVisitor& v) {
     v.flag("invariant", invariant, "right-invariant transport of the covariance; false: plain EKF");
@@ -22,6 +23,9 @@ struct FilterOptions {
              "linearity index below which inverse depth becomes x, y (Civera 2008, eq. 35)");
     v.number("error_correlation_s", error_correlation_s, {0, 60},
              "time over which errors of one landmark's measurements stay alike");
+    v.integer("active_landmarks", active_landmarks, {0, 100000},
+              "landmarks around the robot that are worked with where a map holds over twice as many "
+              "(range-bearing logs); the others follow when they are needed; 0: always all");
   }
 };
 

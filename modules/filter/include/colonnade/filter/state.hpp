@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "colonnade/base/landmark.hpp"
@@ -38,12 +39,26 @@ struct Block {
   }
 };
 
+/// What the state went through since a part of the map was put to rest, so that the resting part
+/// can follow later in one step: the compressed filter of Guivant and Nebot (IEEE Transactions on
+/// Robotics and Automation 17(3), 2001). C is the covariance of the resting part (rows) with the
+/// state (k columns) at that time, n the size of the state now.
+struct Transfer {
+  Eigen::MatrixXd Phi;  ///< n x k: the state's covariance with the resting part is Phi C^T
+  Eigen::MatrixXd Psi;  ///< k x k: the resting part's own covariance lost C Psi C^T
+  /// k x 3: the resting values moved by C times the first column, those of points, whose
+  /// displacement is spread over the turn of a correction, by C times the second and, turned by a
+  /// right angle, the third.
+  Eigen::MatrixX3d theta;
+};
+
 /// The robot's pose (x, y, phi) first, then the blocks in the order of their birth. Data only:
 /// covariance.hpp holds the functions that change x and P.
 struct State {
   Eigen::VectorXd x = Eigen::Vector3d::Zero();
   Eigen::MatrixXd P = Eigen::Matrix3d::Zero();  ///< symmetric, both triangles kept
   std::vector<Block> blocks;
+  std::optional<Transfer> transfer;  ///< only while a part of the map rests
 
   Pose2 T_world_robot() const { return {x(0), x(1), x(2)}; }
   BlockVector values(const Block& block) const { return x.segment(block.offset, block.size()); }
