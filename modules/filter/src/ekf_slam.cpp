@@ -12,8 +12,24 @@
 namespace colonnade {
 namespace {
 
-bool isFinite(const Measurement& m) {
-  return m.z.allFinite() && m.R.allFinite() && m.p_robot_camera.allFinite();
+/// Farther than any sensor of a robot sees.
+constexpr double kLongestRange_m = 1e4;
+/// No sensor is better than this (metres and radians). One that states less would make the
+/// innovation covariance singular at the second look, and be refused for good.
+constexpr double kSmallestSigma = 1e-5;
+
+/// Finite, and a range, where there is one, that a sensor can have measured.
+bool isUsable(const Measurement& m) {
+  if (!m.z.allFinite() || !m.R.allFinite() || !m.p_robot_camera.allFinite()) return false;
+  if (!m.hasRange()) return true;
+  const bool is_line = m.kind == LandmarkKind::kFloorEdge;  // the distance to a line has a sign
+  return std::abs(m.z(1)) < kLongestRange_m && (is_line || m.z(1) > 0.0);
+}
+
+MeasurementCovariance noiseOf(const Measurement& m) {
+  MeasurementCovariance R = m.R;
+  R.diagonal() = R.diagonal().cwiseMax(kSmallestSigma * kSmallestSigma);
+  return R;
 }
 
 bool isCovariance(const Eigen::MatrixXd& Q) {
@@ -39,7 +55,7 @@ Stack stack(const State& state, std::span<const Match> matches) {
                                               state.values(block), match.measurement);
     const Eigen::Index size = predicted.z.size();
     s.nu.segment(row, size) = innovationOf(match.measurement, predicted.z);
-    s.R.block(row, row, size, size) = match.measurement.R;
+    s.R.block(row, row, size, size) = noiseOf(match.measurement);
     H_robot.middleRows(row, size) = predicted.H_robot;
     s.H.add(row, block.offset, predicted.H_block);
     row += size;
@@ -83,7 +99,7 @@ bool EkfSlam::predict(const Pose2& T_previous_robot, const Eigen::Matrix3d& Q) {
 std::optional<Innovation> EkfSlam::innovation(LandmarkId landmark,
                                               const Measurement& measurement) const {
   const Block* block = state_.find(landmark);
-  if (!block || !isFinite(measurement)) return std::nullopt;
+  if (!block || !isUsable(measurement)) return std::nullopt;
   const Match match{landmark, measurement};
   const Stack s = stack(state_, {&match, 1});
   Innovation innovation;
@@ -114,7 +130,7 @@ std::vector<bool> EkfSlam::update(std::span<const Match> matches, double noise_s
   std::vector<double> distances;
   for (std::size_t i = 0; i < matches.size(); ++i) {
     const Match& match = matches[i];
-    if (!isFinite(match.measurement)) {
+    if (!isUsable(match.measurement)) {
       health_.refuse("measurement not finite");
       continue;
     }
@@ -144,7 +160,7 @@ std::vector<bool> EkfSlam::update(std::span<const Match> matches, double noise_s
 
 std::optional<LandmarkId> EkfSlam::addLandmark(const Measurement& measurement) {
   const bool is_line = measurement.kind == LandmarkKind::kFloorEdge;
-  if (!isFinite(measurement) || !measurement.hasRange()) {
+  if (!isUsable(measurement) || !measurement.hasRange()) {
     health_.refuse("measurement not finite");
     return std::nullopt;
   }
@@ -154,7 +170,7 @@ std::optional<LandmarkId> EkfSlam::addLandmark(const Measurement& measurement) {
   augment(state_,
           {id, is_line ? BlockKind::kFloorLine : BlockKind::kPoint, measurement.kind, 0, {}},
           inverse.block, SparseJacobian(inverse.block.size()).add(0, 0, inverse.J_robot),
-          inverse.J_z * measurement.R * inverse.J_z.transpose());
+          inverse.J_z * noiseOf(measurement) * inverse.J_z.transpose());
   return id;
 }
 
@@ -191,7 +207,7 @@ TwoViews lookTwice(const State& state, const Block& clone, const Measurement& fi
 std::optional<EkfSlam::Parallax> EkfSlam::parallax(LandmarkId clone, const Measurement& first,
                                                    const Measurement& now) const {
   const Block* block = state_.find(clone);
-  if (!block || !isFinite(first) || !isFinite(now)) return std::nullopt;
+  if (!block || !isUsable(first) || !isUsable(now)) return std::nullopt;
   const TwoViews views = lookTwice(state_, *block, first, now);
   const auto& t = views.triangulation;
   if (!t.block.allFinite()) return std::nullopt;
