@@ -20,7 +20,8 @@ namespace {
 /// same readings. Posts of every fifth place are seen as bearings first, and settle later.
 class Ring {
  public:
-  Ring(std::vector<FilterOptions> options, double motion_noise = 1.0) : motion_noise_(motion_noise) {
+  Ring(std::vector<FilterOptions> options, double motion_noise = 1.0)
+      : motion_noise_(motion_noise) {
     for (const FilterOptions& o : options) filters.emplace_back(o);
     axes_.resize(filters.size());
     known_.resize(filters.size());
@@ -166,8 +167,7 @@ TEST(RestingMap, WithTransportItDiffersInSecondOrder) {
   Ring ring({withActive(0, true), withActive(6, true)});
   for (int i = 0; i < 2 * Ring::kStepsAround; ++i) {
     ring.step();
-    const Eigen::Vector3d apart =
-        ring.filters[1].pose().vector() - ring.filters[0].pose().vector();
+    const Eigen::Vector3d apart = ring.filters[1].pose().vector() - ring.filters[0].pose().vector();
     const Eigen::Vector3d sigma = ring.filters[0].poseCovariance().diagonal().cwiseSqrt();
     ASSERT_LT((apart.array().abs() / sigma.array()).maxCoeff(), 0.1) << "step " << i;
   }
@@ -213,7 +213,7 @@ TEST(RestingMap, ARestingLandmarkIsFoundByItsReading) {
     m.z = Eigen::Vector2d(0.0, 1.0);
     m.R = Eigen::Vector2d(1e-4, 1e-3).asDiagonal();
     m.z = predictMeasurement(filter.pose(), block.block_kind, all.values(block), m).z;
-    const auto near = filter.restingNear(m);
+    const auto near = filter.restingNear({&m, 1});
     ++resting;
     found += std::count(near.begin(), near.end(), block.id) == 1 ? 1 : 0;
     EXPECT_LT(near.size(), 6u);

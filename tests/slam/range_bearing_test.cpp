@@ -107,6 +107,81 @@ Outcome drive(const RangeBearingOptions& options) {
   return drive(options, [](PostHall&, RangeBearingScan&) {});
 }
 
+/// A robot that goes once and a quarter around a long ring of posts, 3 m apart in two rows.
+struct RingOutcome {
+  double rmse_m = 0.0;
+  std::size_t landmarks = 0;
+  double right_share = 0.0;
+  std::size_t most_active = 0;
+  State full;
+};
+RingOutcome driveRing(const RangeBearingOptions& options, int active_landmarks) {
+  constexpr double kRadius_m = 30.0;
+  constexpr int kPosts = 120, kRingSteps = 790;
+  std::mt19937_64 random(3);
+  const auto noise = [&](double sigma) {
+    return std::normal_distribution<double>(0.0, sigma)(random);
+  };
+  FilterOptions filter;
+  filter.active_landmarks = active_landmarks;
+  RangeBearingEstimator estimator(options, filter);
+  RingOutcome outcome;
+  std::vector<int> identities;
+  Pose2 truth;
+  for (int step = 0; step < kRingSteps; ++step) {
+    const Pose2 way = step == 0 ? Pose2{} : Pose2{0.3, 0.0, 0.3 / kRadius_m};
+    truth = truth * way;
+    MotionIncrement motion;
+    motion.T_previous_robot = {way.x + noise(0.01), way.y + noise(0.005), way.phi + noise(0.002)};
+    motion.covariance.diagonal() << 1e-4, 2.5e-5, 4e-6;
+    RangeBearingScan scan;
+    scan.range_sigma_m = 0.05;
+    scan.yaw_sigma = radians(0.5);
+    for (int i = 0; i < kPosts; ++i) {
+      const double angle = 2.0 * kPi * (i / 2) / (kPosts / 2);
+      const double radius = kRadius_m + (i % 2 == 0 ? -2.0 : 2.0);
+      const Eigen::Vector2d p = transform(
+          truth.inverse(),
+          Eigen::Vector2d(radius * std::sin(angle), kRadius_m - radius * std::cos(angle)));
+      if (p.norm() > 6.0) continue;
+      scan.readings.push_back(
+          {i + 1, p.norm() + noise(0.05), std::atan2(p.y(), p.x()) + noise(radians(0.5)), 0.0, {}});
+      identities.push_back(i + 1);
+    }
+    estimator.step(0.25 * step, motion, scan);
+    outcome.rmse_m +=
+        (estimator.pose().translation() - truth.translation()).squaredNorm() / kRingSteps;
+    outcome.most_active = std::max(outcome.most_active, estimator.filter().state().blocks.size());
+  }
+  outcome.rmse_m = std::sqrt(outcome.rmse_m);
+  outcome.landmarks = estimator.map().size();
+  outcome.right_share = scoreIdentities(estimator.decisions(), identities).rightShare();
+  outcome.full = estimator.filter().fullState();
+  return outcome;
+}
+
+TEST(RangeBearing, LargeMapsLetFarLandmarksRestAndLoseNothing) {
+  RangeBearingOptions known, hidden;
+  hidden.use_ids = false;
+  hidden.association = "jcbb";
+  for (RangeBearingOptions options : {known, hidden}) {
+    options.world_with_map = false;
+    const RingOutcome full = driveRing(options, 0);
+    const RingOutcome compressed = driveRing(options, 12);
+    EXPECT_LT(compressed.most_active, 45u);
+    EXPECT_EQ(full.landmarks, compressed.landmarks);
+    EXPECT_NEAR(full.rmse_m, compressed.rmse_m, 0.02 * full.rmse_m + 1e-3);
+    EXPECT_NEAR(full.right_share, compressed.right_share, 0.01);
+    ASSERT_EQ(full.full.x.size(), compressed.full.x.size());
+    const Eigen::VectorXd sigma = full.full.P.diagonal().cwiseSqrt();
+    EXPECT_LT(((full.full.x - compressed.full.x).cwiseQuotient(sigma)).cwiseAbs().maxCoeff(), 0.3);
+    const Eigen::VectorXd eigenvalues =
+        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(compressed.full.P, Eigen::EigenvaluesOnly)
+            .eigenvalues();
+    EXPECT_GE(eigenvalues.minCoeff(), -1e-9 * eigenvalues.maxCoeff());
+  }
+}
+
 TEST(RangeBearing, KnownIdentitiesMapAllPosts) {
   const Outcome outcome = drive({});
   EXPECT_EQ(outcome.landmarks, 12u);

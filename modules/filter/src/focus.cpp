@@ -44,8 +44,7 @@ void EkfSlam::focus(std::span<const LandmarkId> needed) {
   const auto most = static_cast<std::ptrdiff_t>(options_.active_landmarks);
   const bool wakes =
       std::any_of(needed.begin(), needed.end(), [&](LandmarkId id) { return isResting(id); });
-  if (!wakes &&
-      std::count_if(state_.blocks.begin(), state_.blocks.end(), isChoosable) <= 2 * most)
+  if (!wakes && std::count_if(state_.blocks.begin(), state_.blocks.end(), isChoosable) <= 2 * most)
     return;
 
   std::vector<LandmarkId> active;
@@ -57,8 +56,12 @@ void EkfSlam::focus(std::span<const LandmarkId> needed) {
     else
       active.push_back(block.id);
   }
-  for (const Block& block : resting_.blocks())
-    by_distance.emplace_back(distanceTo(block, resting_.values(block, state_), p_robot), block.id);
+  if (!resting_.empty()) {
+    const Eigen::VectorXd x = resting_.values(state_);
+    for (const Block& block : resting_.blocks())
+      by_distance.emplace_back(distanceTo(block, x.segment(block.offset, block.size()), p_robot),
+                               block.id);
+  }
   const auto nearest = std::min<std::size_t>(by_distance.size(), options_.active_landmarks);
   std::nth_element(by_distance.begin(), by_distance.begin() + static_cast<std::ptrdiff_t>(nearest),
                    by_distance.end());
@@ -70,32 +73,61 @@ void EkfSlam::focus(std::span<const LandmarkId> needed) {
   resting_.exchange(state_, active, options_.invariant);
 }
 
-std::vector<LandmarkId> EkfSlam::restingNear(const Measurement& measurement) const {
+namespace {
+
+/// A measurement with range, and where and how widely around it its landmark may be.
+struct Sighting {
+  const Measurement* measurement;
+  Eigen::Vector2d p_world;
+  double spread2;  ///< m^2, but for the landmark's own
+};
+
+std::vector<Sighting> sightings(std::span<const Measurement> measurements, const Pose2& pose,
+                                const Eigen::Matrix3d& P_robot) {
+  std::vector<Sighting> sightings;
+  for (const Measurement& m : measurements) {
+    if (!m.hasRange() || m.kind == LandmarkKind::kFloorEdge) continue;
+    if (!m.z.allFinite() || !m.R.allFinite()) continue;
+    const Eigen::Vector2d p_world = pointFromRange(pose, m).block;
+    const double range2 = (p_world - pose.translation()).squaredNorm();
+    sightings.push_back(
+        {&m, p_world,
+         P_robot.topLeftCorner<2, 2>().trace() + range2 * (P_robot(2, 2) + m.R(0, 0)) + m.R(1, 1)});
+  }
+  return sightings;
+}
+
+}  // namespace
+
+std::vector<LandmarkId> EkfSlam::restingNear(std::span<const Measurement> measurements) const {
   std::vector<LandmarkId> near;
-  if (resting_.empty() || !measurement.hasRange() || measurement.kind == LandmarkKind::kFloorEdge ||
-      !measurement.z.allFinite() || !measurement.R.allFinite())
-    return near;
-  const double bound = chiSquareQuantile(kNearProbability, 2);
   const Eigen::Matrix3d P_robot = poseCovariance();
-  const Eigen::Vector2d p_measured = pointFromRange(pose(), measurement).block;
-  const double range2 = (p_measured - pose().translation()).squaredNorm();
-  const double spread2 = P_robot.topLeftCorner<2, 2>().trace() +
-                         range2 * (P_robot(2, 2) + measurement.R(0, 0)) + measurement.R(1, 1);
-  for (const Block& block : resting_.blocks()) {
-    if (block.block_kind != BlockKind::kPoint || block.landmark_kind != measurement.kind) continue;
-    const BlockVector y = resting_.values(block, state_);
-    const auto relation = resting_.relation(block, state_);
-    if ((y - p_measured).squaredNorm() > kFirstLook2 * (spread2 + relation.P_block.trace())) continue;
-    const auto predicted = predictMeasurement(pose(), block.block_kind, y, measurement);
-    const Eigen::MatrixXd cross =
-        predicted.H_robot * relation.P_robot_block * predicted.H_block.transpose();
+  const auto seen = sightings(measurements, pose(), P_robot);
+  if (resting_.empty() || seen.empty()) return near;
+  const double bound = chiSquareQuantile(kNearProbability, 2);
+  const Eigen::VectorXd x = resting_.values(state_);
+  const auto mayBe = [&](const Block& block, const Sighting& sighting) {
+    const Measurement& m = *sighting.measurement;
+    const Eigen::Vector2d y = x.segment<2>(block.offset);
+    const double apart2 = (y - sighting.p_world).squaredNorm();
+    const Eigen::MatrixXd P_block = resting_.covariance(block);
+    if (apart2 > kFirstLook2 * (sighting.spread2 + P_block.trace())) return false;
+    const auto predicted = predictMeasurement(pose(), block.block_kind, y, m);
+    const Eigen::MatrixXd cross = predicted.H_robot * resting_.covarianceWithRobot(block, state_) *
+                                  predicted.H_block.transpose();
     const Eigen::MatrixXd S = predicted.H_robot * P_robot * predicted.H_robot.transpose() + cross +
                               cross.transpose() +
-                              predicted.H_block * relation.P_block * predicted.H_block.transpose() +
-                              measurement.R;
-    const Eigen::VectorXd nu = innovationOf(measurement, predicted.z);
+                              predicted.H_block * P_block * predicted.H_block.transpose() + m.R;
+    const Eigen::VectorXd nu = innovationOf(m, predicted.z);
     const Eigen::LLT<Eigen::MatrixXd> llt(S);
-    if (llt.info() != Eigen::Success || nu.dot(llt.solve(nu)) <= bound) near.push_back(block.id);
+    return llt.info() != Eigen::Success || nu.dot(llt.solve(nu)) <= bound;
+  };
+  for (const Block& block : resting_.blocks()) {
+    if (block.block_kind != BlockKind::kPoint) continue;
+    if (std::any_of(seen.begin(), seen.end(), [&](const Sighting& sighting) {
+          return sighting.measurement->kind == block.landmark_kind && mayBe(block, sighting);
+        }))
+      near.push_back(block.id);
   }
   return near;
 }

@@ -59,7 +59,8 @@ LandmarkMap EkfSlam::landmarkMap() const {
   if (!resting_.empty()) return EkfSlam(options_, fullState()).landmarkMap();
   LandmarkMap map;
   for (const Block& block : state_.blocks) {
-    if (!block.isLandmark() || block.evidence.hypothesis || !isSettledEnough(state_, block)) continue;
+    if (!block.isLandmark() || block.evidence.hypothesis || !isSettledEnough(state_, block))
+      continue;
     LandmarkRecord record;
     record.id = block.id;
     record.kind = block.landmark_kind;

@@ -40,8 +40,8 @@ std::vector<Eigen::Index> indicesOf(const std::vector<Block>& blocks) {
 /// A factor D of the change C Psi C^T = D D^T, of as few columns as it takes.
 Eigen::MatrixXd lowRankFactor(const Eigen::MatrixXd& C, const Eigen::MatrixXd& Psi) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> inner(Psi);
-  const Eigen::MatrixXd F = inner.eigenvectors() *
-                            inner.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+  const Eigen::MatrixXd F =
+      inner.eigenvectors() * inner.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
   Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(C.cols(), C.cols());
   gram.selfadjointView<Eigen::Lower>().rankUpdate(C.transpose());
   const Eigen::MatrixXd outer =
@@ -50,8 +50,7 @@ Eigen::MatrixXd lowRankFactor(const Eigen::MatrixXd& C, const Eigen::MatrixXd& P
   const Eigen::VectorXd& lambda = spectrum.eigenvalues();
   if (lambda.size() == 0 || !(lambda(lambda.size() - 1) > 0.0))
     return Eigen::MatrixXd::Zero(C.rows(), 0);
-  const Eigen::Index rank =
-      (lambda.array() > kNegligible * lambda(lambda.size() - 1)).count();
+  const Eigen::Index rank = (lambda.array() > kNegligible * lambda(lambda.size() - 1)).count();
   return C * (F * spectrum.eigenvectors().rightCols(rank));
 }
 
@@ -71,35 +70,8 @@ void RestingMap::remove(LandmarkId id) {
   slots_.erase(id);
 }
 
-BlockVector RestingMap::values(const Block& block, const State& state) const {
-  BlockVector y = x_.segment(block.offset, block.size());
-  if (!state.transfer) return y;
-  const Eigen::Matrix<double, Eigen::Dynamic, 3, 0, 4, 3> step =
-      C_.middleRows(block.offset, block.size()) * state.transfer->theta;
-  const Layout layout = layoutOf(block.block_kind);
-  for (int i = 0; i < block.size(); ++i) y(i) += step(i, 0);
-  if (layout.point >= 0) {
-    y(0) += step(0, 1) - step(1, 2) - step(0, 0);
-    y(1) += step(1, 1) + step(0, 2) - step(1, 0);
-  }
-  if (layout.direction >= 0) y(layout.direction) = wrapAngle(y(layout.direction));
-  return y;
-}
-
-RestingMap::Relation RestingMap::relation(const Block& block, const State& state) const {
-  Relation relation;
-  const int size = block.size();
-  relation.P_block.resize(size, size);
-  for (int i = 0; i < size; ++i)
-    for (int j = 0; j < size; ++j)
-      relation.P_block(i, j) = P_(block.offset + i, block.offset + j);
-  relation.P_robot_block = state.transfer->Phi.topRows<3>() *
-                           C_.middleRows(block.offset, size).transpose();
-  return relation;
-}
-
-Eigen::VectorXd RestingMap::moved(const Transfer& transfer) const {
-  const Eigen::MatrixX3d step = C_ * transfer.theta;
+Eigen::VectorXd RestingMap::values(const State& state) const {
+  const Eigen::MatrixX3d step = C_ * state.transfer->theta;
   Eigen::VectorXd x = x_ + step.col(0);
   for (const Block& block : blocks_) {
     const Layout layout = layoutOf(block.block_kind);
@@ -111,6 +83,17 @@ Eigen::VectorXd RestingMap::moved(const Transfer& transfer) const {
     if (layout.direction >= 0) x(at + layout.direction) = wrapAngle(x(at + layout.direction));
   }
   return x;
+}
+
+Eigen::MatrixXd RestingMap::covariance(const Block& block) const {
+  return Eigen::MatrixXd::NullaryExpr(block.size(), block.size(),
+                                      [&](Eigen::Index row, Eigen::Index column) {
+                                        return P_(block.offset + row, block.offset + column);
+                                      });
+}
+
+Eigen::MatrixXd RestingMap::covarianceWithRobot(const Block& block, const State& state) const {
+  return state.transfer->Phi.topRows<3>() * C_.middleRows(block.offset, block.size()).transpose();
 }
 
 Eigen::VectorXd RestingMap::worldTurn(const Eigen::VectorXd& x) const {
@@ -162,7 +145,7 @@ void RestingMap::exchange(State& state, const std::vector<LandmarkId>& active, b
   if (state.transfer) {
     const Transfer& transfer = *state.transfer;
     X.noalias() = C_ * transfer.Phi.transpose();
-    const Eigen::VectorXd now = moved(transfer);
+    const Eigen::VectorXd now = values(state);
     const Eigen::VectorXd g = worldTurn(now) - worldTurn(x_);
     x_ = now;
     const Eigen::MatrixXd D = lowRankFactor(C_, transfer.Psi);
@@ -218,8 +201,7 @@ void RestingMap::exchange(State& state, const std::vector<LandmarkId>& active, b
   owed_(in, Eigen::all).setZero();
   X(out_slots, Eigen::all) = state.P(out, Eigen::all);
   E(out_slots, Eigen::all) = X(in, out).transpose();
-  for (std::size_t i = 0; i < out.size(); ++i)
-    P_.setRowAndColumn(out_slots[i], X.col(out[i]));
+  for (std::size_t i = 0; i < out.size(); ++i) P_.setRowAndColumn(out_slots[i], X.col(out[i]));
 
   // The new state: the robot, and what is active in the order of birth.
   State next;

@@ -37,9 +37,8 @@ void SymmetricPanels::setRowAndColumn(Eigen::Index index, const Eigen::VectorXd&
   for (Eigen::Index panel = own; panel < panels(); ++panel) {
     const Eigen::Index first = std::max(panel * kRows, index);
     const Eigen::Index end = std::min((panel + 1) * kRows, size_);
-    panels_[static_cast<std::size_t>(panel)].col(index).segment(first - panel * kRows,
-                                                                end - first) =
-        values.segment(first, end - first);
+    panels_[static_cast<std::size_t>(panel)].col(index).segment(
+        first - panel * kRows, end - first) = values.segment(first, end - first);
   }
 }
 

@@ -135,6 +135,7 @@ RangeBearingReport RangeBearingEstimator::step(double stamp_s, const MotionIncre
   self.former_stamp_s = stamp_s;
   ++self.frames;
   self.predict(motion);
+  for (auto& hypothesis : self.hypotheses) hypothesis.focus(frame);
 
   const bool open = std::any_of(frame.readings.begin(), frame.readings.end(),
                                 [](const auto& reading) { return reading.identity < 0; });

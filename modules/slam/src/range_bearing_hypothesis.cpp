@@ -40,9 +40,22 @@ std::optional<LandmarkId> RangeBearingHypothesis::landmarkOf(int identity) const
 }
 
 std::optional<int> RangeBearingHypothesis::identityOf(LandmarkId landmark) const {
-  for (const auto& [identity, bearer] : landmark_of_identity_)
-    if (bearer == landmark) return identity;
-  return std::nullopt;
+  const auto found = identity_of_landmark_.find(landmark);
+  return found == identity_of_landmark_.end() ? std::nullopt : std::optional(found->second);
+}
+
+void RangeBearingHypothesis::focus(const ReadingFrame& frame) {
+  std::vector<LandmarkId> needed;
+  std::vector<Measurement> open;
+  for (const LandmarkReading& reading : frame.readings) {
+    if (const auto bearer = landmarkOf(reading.identity))
+      needed.push_back(*bearer);
+    else
+      open.push_back(reading.measurement);
+  }
+  const auto near = filter.restingNear(open);
+  needed.insert(needed.end(), near.begin(), near.end());
+  filter.focus(needed);
 }
 
 std::vector<LandmarkId> RangeBearingHypothesis::allowed(int identity) const {
@@ -94,7 +107,8 @@ void RangeBearingHypothesis::observe(LandmarkId landmark, const LandmarkReading&
   used.push_back(landmark);
   strikes_.erase(landmark);
   refused_in_a_row_.clear();
-  if (reading.identity >= 0) landmark_of_identity_.emplace(reading.identity, landmark);
+  if (reading.identity >= 0 && landmark_of_identity_.emplace(reading.identity, landmark).second)
+    identity_of_landmark_.emplace(landmark, reading.identity);
 }
 
 void RangeBearingHypothesis::strike(LandmarkId landmark, const ReadingFrame& frame,
@@ -119,7 +133,8 @@ void RangeBearingHypothesis::strike(LandmarkId landmark, const ReadingFrame& fra
 void RangeBearingHypothesis::forget(LandmarkId landmark) {
   filter.remove(landmark);
   strikes_.erase(landmark);
-  std::erase_if(landmark_of_identity_, [&](const auto& e) { return e.second == landmark; });
+  if (const auto identity = identityOf(landmark)) landmark_of_identity_.erase(*identity);
+  identity_of_landmark_.erase(landmark);
 }
 
 void RangeBearingHypothesis::release(LandmarkId clone) {

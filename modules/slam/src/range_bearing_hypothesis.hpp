@@ -48,6 +48,10 @@ class RangeBearingHypothesis {
   /// bears yet, those without one; for a reading without identity all. Not those already used.
   std::vector<LandmarkId> allowed(int identity) const;
 
+  /// In a large map: lets the landmarks the readings may be of be worked with, and those around
+  /// the robot; the others rest.
+  void focus(const ReadingFrame& frame);
+
   /// A new landmark at the reading.
   std::optional<LandmarkId> found(const LandmarkReading& reading, const ReadingFrame& frame,
                                   std::vector<Event>& events);
@@ -81,6 +85,7 @@ class RangeBearingHypothesis {
 
   const RangeBearingOptions* options_;
   std::map<int, LandmarkId> landmark_of_identity_;
+  std::map<LandmarkId, int> identity_of_landmark_;
   std::map<LandmarkId, int> strikes_;
   std::vector<LandmarkId> refused_in_a_row_;
   std::map<int, FirstBearing> first_bearings_;

@@ -184,7 +184,7 @@ void RangeBearingSlam::getCurrentState(
     out_landmarkIDs[place] =
         estimator_->identityOf(landmark.id).value_or(static_cast<int>(number(landmark.id)));
   }
-  const State& state = estimator_->filter().state();
+  const State state = estimator_->filter().fullState();
   out_fullState.resize(static_cast<std::size_t>(state.x.size()));
   for (Eigen::Index i = 0; i < state.x.size(); ++i)
     out_fullState[static_cast<std::size_t>(i)] = state.x(i);

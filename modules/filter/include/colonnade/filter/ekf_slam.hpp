@@ -63,8 +63,8 @@ class EkfSlam {
   /// The squared Mahalanobis distance of all matches together; nothing when S is singular.
   std::optional<double> jointDistance2(std::span<const Match> matches) const;
 
-  /// The innovations of several pairings, stacked, with their covariance S = H P H^T + R. A landmark
-  /// and a measurement may stand in several of them. All landmarks must be known.
+  /// The innovations of several pairings, stacked, with their covariance S = H P H^T + R. A
+  /// landmark and a measurement may stand in several of them. All landmarks must be known.
   struct JointInnovation {
     Eigen::VectorXd nu;
     Eigen::MatrixXd S;
@@ -130,8 +130,8 @@ class EkfSlam {
   /// landmarks only.
   void focus(std::span<const LandmarkId> needed);
   bool isResting(LandmarkId landmark) const { return resting_.find(landmark) != nullptr; }
-  /// Resting landmarks a measurement with range may be of.
-  std::vector<LandmarkId> restingNear(const Measurement& measurement) const;
+  /// Resting points that one of the measurements (those with range) may be of.
+  std::vector<LandmarkId> restingNear(std::span<const Measurement> measurements) const;
   /// The state with all landmarks active, up to date. A copy of everything where some rest.
   State fullState() const;
 

@@ -24,8 +24,8 @@ struct FilterOptions {
     v.number("error_correlation_s", error_correlation_s, {0, 60},
              "time over which errors of one landmark's measurements stay alike");
     v.integer("active_landmarks", active_landmarks, {0, 100000},
-              "landmarks around the robot that EkfSlam::focus keeps active where a map holds over "
-              "twice as many; 0, or without a call of it: all");
+              "range-bearing logs: landmarks around the robot worked with where a map holds over "
+              "twice as many; the others follow when they are needed; 0: always all");
   }
 };
 

@@ -27,15 +27,12 @@ class RestingMap {
   Block* find(LandmarkId id);
   const Block* find(LandmarkId id) const;
 
-  /// Values of a resting block as of now.
-  BlockVector values(const Block& block, const State& state) const;
-  /// Covariance of the block with itself and with the robot, as of now but for what the block
-  /// itself learned since the last exchange: never too small.
-  struct Relation {
-    Eigen::MatrixXd P_block;
-    Eigen::MatrixXd P_robot_block;  ///< 3 x size
-  };
-  Relation relation(const Block& block, const State& state) const;
+  /// The values of all resting blocks as of now, at their offsets.
+  Eigen::VectorXd values(const State& state) const;
+  /// Covariance of a resting block as of the last exchange: since then it can only have lost.
+  Eigen::MatrixXd covariance(const Block& block) const;
+  /// Covariance of the robot with a resting block as of now (3 x size).
+  Eigen::MatrixXd covarianceWithRobot(const Block& block, const State& state) const;
 
   /// Brings the resting part up to date and exchanges blocks: afterwards the state holds the blocks
   /// of `active` (ascending; all of them known here or there), and the others rest.
@@ -51,15 +48,14 @@ class RestingMap {
   };
   void addOwed(const Eigen::MatrixXd& D, const Eigen::VectorXd& weights);
   void settleDebts();
-  Eigen::VectorXd moved(const Transfer& transfer) const;
   Eigen::VectorXd worldTurn(const Eigen::VectorXd& x) const;
 
-  std::vector<Block> blocks_;  ///< those that rest; offset: that of the slot
+  std::vector<Block> blocks_;         ///< those that rest; offset: that of the slot
   std::map<LandmarkId, Slot> slots_;  ///< once given, a block's for good
   Eigen::VectorXd x_;
-  SymmetricPanels P_;          ///< rows of slots whose block does not rest mean nothing
-  Eigen::MatrixXd C_;          ///< covariance with the state at the last exchange; see Transfer
-  Eigen::MatrixXd owed_;       ///< D: P_ still lacks D diag(weights) D^T ...
+  SymmetricPanels P_;     ///< rows of slots whose block does not rest mean nothing
+  Eigen::MatrixXd C_;     ///< covariance with the state at the last exchange; see Transfer
+  Eigen::MatrixXd owed_;  ///< D: P_ still lacks D diag(weights) D^T ...
   Eigen::VectorXd weights_;
   Eigen::Index panels_done_ = 0;  ///< ... from this panel on
 };
