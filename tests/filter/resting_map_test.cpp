@@ -136,6 +136,7 @@ FilterOptions withActive(int active_landmarks, bool invariant) {
   FilterOptions options;
   options.active_landmarks = active_landmarks;
   options.invariant = invariant;
+  options.negligible_gain = 0.0;
   options.gate_probability = 0.999999;
   return options;
 }

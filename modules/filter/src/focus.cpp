@@ -15,6 +15,9 @@ constexpr double kNearProbability = 0.9999;
 /// Several times the widest that gate can be in any direction, for a first look by distance.
 constexpr double kFirstLook2 = 4.0 * 18.4;
 constexpr double kFarthestInverseDepth = 1e-3;
+/// What is active lies around a point ahead of the robot, by this share of its radius: the way it
+/// goes is the way it looks, and landmarks are exchanged half as often.
+constexpr double kAhead = 0.5;
 
 /// How far the robot is from a landmark; from the nearest seen point of a floor edge.
 double distanceTo(const Block& block, const BlockVector& y, const Eigen::Vector2d& p_robot) {
@@ -36,6 +39,23 @@ double distanceTo(const Block& block, const BlockVector& y, const Eigen::Vector2
   }
 }
 
+struct Place {
+  const Block* block;
+  BlockVector y;
+  double distance = 0.0;
+};
+
+/// The `count` nearest come first; returns the distance of the farthest of them.
+double nearest(std::vector<Place>& places, std::size_t count, const Eigen::Vector2d& p_world) {
+  for (Place& place : places) place.distance = distanceTo(*place.block, place.y, p_world);
+  if (count == 0) return 0.0;
+  std::nth_element(places.begin(), places.begin() + static_cast<std::ptrdiff_t>(count - 1),
+                   places.end(), [](const Place& a, const Place& b) {
+                     return std::pair(a.distance, a.block->id) < std::pair(b.distance, b.block->id);
+                   });
+  return places[count - 1].distance;
+}
+
 }  // namespace
 
 void EkfSlam::focus(std::span<const LandmarkId> needed) {
@@ -48,29 +68,25 @@ void EkfSlam::focus(std::span<const LandmarkId> needed) {
     return;
 
   std::vector<LandmarkId> active;
-  std::vector<std::pair<double, LandmarkId>> by_distance;
-  const Eigen::Vector2d p_robot = pose().translation();
+  std::vector<Place> places;
   for (const Block& block : state_.blocks) {
     if (isChoosable(block))
-      by_distance.emplace_back(distanceTo(block, state_.values(block), p_robot), block.id);
+      places.push_back({&block, state_.values(block)});
     else
       active.push_back(block.id);
   }
-  if (!resting_.empty()) {
-    const Eigen::VectorXd x = resting_.values(state_);
-    for (const Block& block : resting_.blocks())
-      by_distance.emplace_back(distanceTo(block, x.segment(block.offset, block.size()), p_robot),
-                               block.id);
-  }
-  const auto nearest = std::min<std::size_t>(by_distance.size(), options_.active_landmarks);
-  std::nth_element(by_distance.begin(), by_distance.begin() + static_cast<std::ptrdiff_t>(nearest),
-                   by_distance.end());
-  for (std::size_t i = 0; i < nearest; ++i) active.push_back(by_distance[i].second);
+  // Where resting landmarks were at the last exchange is good enough to choose by.
+  for (const Block& block : resting_.blocks())
+    places.push_back({&block, resting_.valueThen(block)});
+  const auto count = std::min<std::size_t>(places.size(), options_.active_landmarks);
+  const double radius = nearest(places, count, pose().translation());
+  nearest(places, count, transform(pose(), Eigen::Vector2d(kAhead * radius, 0.0)));
+  for (std::size_t i = 0; i < count; ++i) active.push_back(places[i].block->id);
   for (const LandmarkId id : needed)
     if (state_.find(id) || isResting(id)) active.push_back(id);
   std::sort(active.begin(), active.end());
   active.erase(std::unique(active.begin(), active.end()), active.end());
-  resting_.exchange(state_, active, options_.invariant);
+  resting_.exchange(state_, active, options_.invariant, options_.negligible_gain);
 }
 
 namespace {
@@ -105,13 +121,15 @@ std::vector<LandmarkId> EkfSlam::restingNear(std::span<const Measurement> measur
   const auto seen = sightings(measurements, pose(), P_robot);
   if (resting_.empty() || seen.empty()) return near;
   const double bound = chiSquareQuantile(kNearProbability, 2);
-  const Eigen::VectorXd x = resting_.values(state_);
+  const double move = resting_.largestMove(state_);
   const auto mayBe = [&](const Block& block, const Sighting& sighting) {
     const Measurement& m = *sighting.measurement;
-    const Eigen::Vector2d y = x.segment<2>(block.offset);
-    const double apart2 = (y - sighting.p_world).squaredNorm();
+    const double spread2 = resting_.spread2(block);
+    const double apart =
+        (resting_.valueThen(block) - sighting.p_world).norm() - move * std::sqrt(spread2);
+    if (apart > 0.0 && apart * apart > kFirstLook2 * (sighting.spread2 + spread2)) return false;
+    const BlockVector y = resting_.value(block, state_);
     const Eigen::MatrixXd P_block = resting_.covariance(block);
-    if (apart2 > kFirstLook2 * (sighting.spread2 + P_block.trace())) return false;
     const auto predicted = predictMeasurement(pose(), block.block_kind, y, m);
     const Eigen::MatrixXd cross = predicted.H_robot * resting_.covarianceWithRobot(block, state_) *
                                   predicted.H_block.transpose();
@@ -140,7 +158,7 @@ State EkfSlam::fullState() const {
   for (const Block& block : state_.blocks) all.push_back(block.id);
   for (const Block& block : resting_.blocks()) all.push_back(block.id);
   std::sort(all.begin(), all.end());
-  resting.exchange(state, all, options_.invariant);
+  resting.exchange(state, all, options_.invariant, 0.0);
   return state;
 }
 

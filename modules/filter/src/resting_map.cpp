@@ -13,10 +13,14 @@
 namespace colonnade {
 namespace {
 
-/// What an exchange leaves to do is done within so many steps.
-constexpr Eigen::Index kStepsToWorkOff = 12;
-/// Parts of a change of P smaller than this share of its largest are left out: P stays larger.
-constexpr double kNegligible = 1e-13;
+/// So many columns of the debt are paid together: P is passed through once for all of them.
+constexpr Eigen::Index kColumnsTogether = 32;
+/// Over so many steps, unless more columns come meanwhile.
+constexpr Eigen::Index kStepsToWorkOff = 32;
+/// Parts of a change of P smaller than this share of its largest are rounding.
+constexpr double kRounding = 1e-13;
+/// What is negligible is judged on so many resting blocks, evenly spread over all.
+constexpr std::size_t kBlocksJudged = 500;
 
 bool before(const Block& block, LandmarkId id) { return block.id < id; }
 
@@ -37,21 +41,44 @@ std::vector<Eigen::Index> indicesOf(const std::vector<Block>& blocks) {
   return indices;
 }
 
-/// A factor D of the change C Psi C^T = D D^T, of as few columns as it takes.
-Eigen::MatrixXd lowRankFactor(const Eigen::MatrixXd& C, const Eigen::MatrixXd& Psi) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> inner(Psi);
-  const Eigen::MatrixXd F =
-      inner.eigenvectors() * inner.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
-  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(C.cols(), C.cols());
-  gram.selfadjointView<Eigen::Lower>().rankUpdate(C.transpose());
-  const Eigen::MatrixXd outer =
-      F.transpose() * (gram.selfadjointView<Eigen::Lower>() * F);  // D^T D before the cut
+/// Psi = F F^T.
+Eigen::MatrixXd squareRoot(const Eigen::MatrixXd& Psi) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(Psi);
+  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+}
+
+/// How many of the last columns of a factor make up its square but for rounding; the columns are
+/// in the order of their squares.
+Eigen::Index rankOf(const Eigen::VectorXd& squares) {
+  const Eigen::Index size = squares.size();
+  if (size == 0 || !(squares(size - 1) > 0.0)) return 0;
+  return (squares.array() > kRounding * squares(size - 1)).count();
+}
+
+/// How many of the first columns of `parts` can go before the sum of their squares is more than
+/// `negligible` in a row.
+Eigen::Index negligibleColumns(const Eigen::MatrixXd& parts, double negligible) {
+  Eigen::VectorXd lost = Eigen::VectorXd::Zero(parts.rows());
+  for (Eigen::Index column = 0; column < parts.cols(); ++column) {
+    lost += parts.col(column).cwiseAbs2();
+    if (lost.maxCoeff() > negligible) return column;
+  }
+  return parts.cols();
+}
+
+/// A with D D^T = C Psi C^T for D = C A, of as few columns as it takes for the rows of `C_judged`:
+/// those of C, or a part of them in units of their deviations, of whose variances a share of
+/// `negligible` may be left out.
+Eigen::MatrixXd lowRankFactor(const Eigen::MatrixXd& C_judged, const Eigen::MatrixXd& Psi,
+                              double negligible) {
+  const Eigen::MatrixXd F = squareRoot(Psi);
+  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(Psi.rows(), Psi.rows());
+  gram.selfadjointView<Eigen::Lower>().rankUpdate(C_judged.transpose());
+  const Eigen::MatrixXd outer = F.transpose() * (gram.selfadjointView<Eigen::Lower>() * F);
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> spectrum(outer);
-  const Eigen::VectorXd& lambda = spectrum.eigenvalues();
-  if (lambda.size() == 0 || !(lambda(lambda.size() - 1) > 0.0))
-    return Eigen::MatrixXd::Zero(C.rows(), 0);
-  const Eigen::Index rank = (lambda.array() > kNegligible * lambda(lambda.size() - 1)).count();
-  return C * (F * spectrum.eigenvectors().rightCols(rank));
+  Eigen::MatrixXd A = F * spectrum.eigenvectors().rightCols(rankOf(spectrum.eigenvalues()));
+  if (negligible <= 0.0) return A;
+  return A.rightCols(A.cols() - negligibleColumns(C_judged * A, negligible)).eval();
 }
 
 }  // namespace
@@ -72,24 +99,51 @@ void RestingMap::remove(LandmarkId id) {
 
 Eigen::VectorXd RestingMap::values(const State& state) const {
   const Eigen::MatrixX3d step = C_ * state.transfer->theta;
-  Eigen::VectorXd x = x_ + step.col(0);
-  for (const Block& block : blocks_) {
-    const Layout layout = layoutOf(block.block_kind);
-    const Eigen::Index at = block.offset;
-    if (layout.point >= 0) {
-      x(at) = x_(at) + step(at, 1) - step(at + 1, 2);
-      x(at + 1) = x_(at + 1) + step(at + 1, 1) + step(at, 2);
-    }
-    if (layout.direction >= 0) x(at + layout.direction) = wrapAngle(x(at + layout.direction));
-  }
+  Eigen::VectorXd x = x_;
+  for (const Block& block : blocks_)
+    x.segment(block.offset, block.size()) =
+        moved(block, step.middleRows(block.offset, block.size()));
   return x;
 }
 
+BlockVector RestingMap::moved(const Block& block,
+                              const Eigen::Ref<const Eigen::MatrixX3d>& step) const {
+  BlockVector y = x_.segment(block.offset, block.size()) + step.col(0);
+  const Layout layout = layoutOf(block.block_kind);
+  if (layout.point >= 0) {
+    y(0) = x_(block.offset) + step(0, 1) - step(1, 2);
+    y(1) = x_(block.offset + 1) + step(1, 1) + step(0, 2);
+  }
+  if (layout.direction >= 0) y(layout.direction) = wrapAngle(y(layout.direction));
+  return y;
+}
+
+double RestingMap::covarianceAt(Eigen::Index row, Eigen::Index column) const {
+  const bool paid = SymmetricPanels::panelOf(std::max(row, column)) < panels_done_;
+  const Eigen::Index owed = owed_.cols() - (paid ? paying_ : 0);
+  return P_(row, column) + owed_.row(row)
+                               .tail(owed)
+                               .cwiseProduct(owed_.row(column).tail(owed))
+                               .dot(weights_.tail(owed).transpose());
+}
+
 Eigen::MatrixXd RestingMap::covariance(const Block& block) const {
-  return Eigen::MatrixXd::NullaryExpr(block.size(), block.size(),
-                                      [&](Eigen::Index row, Eigen::Index column) {
-                                        return P_(block.offset + row, block.offset + column);
-                                      });
+  return Eigen::MatrixXd::NullaryExpr(
+      block.size(), block.size(), [&](Eigen::Index row, Eigen::Index column) {
+        return covarianceAt(block.offset + row, block.offset + column);
+      });
+}
+
+BlockVector RestingMap::value(const Block& block, const State& state) const {
+  return moved(block, C_.middleRows(block.offset, block.size()) * state.transfer->theta);
+}
+
+double RestingMap::largestMove(const State& state) const {
+  const auto length = [&](Eigen::Index column) {
+    const auto theta = state.transfer->theta.col(column);
+    return std::sqrt(std::max(0.0, theta.dot(P_state_ * theta)));
+  };
+  return length(1) + length(2);
 }
 
 Eigen::MatrixXd RestingMap::covarianceWithRobot(const Block& block, const State& state) const {
@@ -115,32 +169,88 @@ void RestingMap::addOwed(const Eigen::MatrixXd& D, const Eigen::VectorXd& weight
   weights_.tail(D.cols()) = weights;
 }
 
+void RestingMap::pay(Eigen::Index panel) {
+  P_.addToPanel(panel, owed_.leftCols(paying_), weights_.head(paying_));
+}
+
+void RestingMap::closeAccount() {
+  owed_ = owed_.rightCols(owed_.cols() - paying_).eval();
+  weights_ = weights_.tail(owed_.cols()).eval();
+  paying_ = panels_done_ = 0;
+}
+
 void RestingMap::settleDebts() {
-  if (owed_.cols() > 0)
-    for (; panels_done_ < P_.panels(); ++panels_done_) P_.addToPanel(panels_done_, owed_, weights_);
-  panels_done_ = 0;
-  owed_.resize(x_.size(), 0);
-  weights_.resize(0);
+  for (; paying_ > 0 && panels_done_ < P_.panels(); ++panels_done_) pay(panels_done_);
+  closeAccount();
+  paying_ = owed_.cols();
+  for (; paying_ > 0 && panels_done_ < P_.panels(); ++panels_done_) pay(panels_done_);
+  closeAccount();
 }
 
 void RestingMap::workOff() {
-  if (owed_.cols() == 0) return;
+  if (paying_ == 0 && owed_.cols() >= kColumnsTogether) paying_ = owed_.cols();
+  if (paying_ == 0) return;
   // Panel k has k + 1 times the work of the first.
   const Eigen::Index panels = P_.panels();
-  Eigen::Index budget = panels * (panels + 1) / 2 / kStepsToWorkOff + panels;
-  while (panels_done_ < panels && budget > 0) {
-    P_.addToPanel(panels_done_, owed_, weights_);
-    budget -= ++panels_done_;
-  }
-  if (panels_done_ == panels) settleDebts();
+  const Eigen::Index times = 1 + (owed_.cols() - paying_) / kColumnsTogether;
+  Eigen::Index budget = times * panels * (panels + 1) / 2 / kStepsToWorkOff + 1;
+  for (; panels_done_ < panels && budget > 0; budget -= ++panels_done_) pay(panels_done_);
+  if (panels_done_ == panels) closeAccount();
 }
 
-void RestingMap::exchange(State& state, const std::vector<LandmarkId>& active, bool invariant) {
+Eigen::MatrixXd RestingMap::columnsNow(const std::vector<Eigen::Index>& columns) const {
+  Eigen::MatrixXd E(x_.size(), static_cast<Eigen::Index>(columns.size()));
+  std::vector<Eigen::Index> unpaid, unpaid_rows;  // columns of panels that are not paid yet
+  const Eigen::Index first_unpaid = std::min(x_.size(), SymmetricPanels::firstRow(panels_done_));
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    E.col(static_cast<Eigen::Index>(i)) = P_.column(columns[i]);
+    if (columns[i] < first_unpaid) continue;
+    unpaid.push_back(static_cast<Eigen::Index>(i));
+    unpaid_rows.push_back(columns[i]);
+  }
+  if (owed_.cols() == 0 || columns.empty()) return E;
+  const Eigen::MatrixXd right = weights_.asDiagonal() * owed_(columns, Eigen::all).transpose();
+  const Eigen::Index unpaid_size = x_.size() - first_unpaid;
+  E.bottomRows(unpaid_size).noalias() += owed_.bottomRows(unpaid_size) * right;
+  const Eigen::Index fresh = owed_.cols() - paying_;
+  E.topRows(first_unpaid).noalias() +=
+      owed_.topRightCorner(first_unpaid, fresh) * right.bottomRows(fresh);
+  if (paying_ > 0 && first_unpaid > 0 && !unpaid.empty())
+    E.topRows(first_unpaid)(Eigen::all, unpaid) +=
+        owed_.topLeftCorner(first_unpaid, paying_) * right.topRows(paying_)(Eigen::all, unpaid);
+  return E;
+}
+
+Eigen::VectorXd RestingMap::variances() const {
+  Eigen::VectorXd variances = owed_.cwiseAbs2() * weights_;
+  for (Eigen::Index i = 0; i < variances.size(); ++i) {
+    const bool paid = SymmetricPanels::panelOf(i) < panels_done_;
+    if (paid && paying_ > 0)
+      variances(i) = covarianceAt(i, i);
+    else
+      variances(i) += P_(i, i);
+  }
+  return variances;
+}
+
+Eigen::MatrixXd RestingMap::judged() const {
+  const std::size_t stride = 1 + blocks_.size() / kBlocksJudged;
+  std::vector<Eigen::Index> rows;
+  for (std::size_t i = 0; i < blocks_.size(); i += stride)
+    for (int k = 0; k < blocks_[i].size(); ++k) rows.push_back(blocks_[i].offset + k);
+  const Eigen::MatrixXd C = C_(rows, Eigen::all);
+  const auto inverse = [](double variance) {
+    return variance > 0.0 ? 1.0 / std::sqrt(variance) : 0.0;
+  };
+  return variance_(rows).unaryExpr(inverse).asDiagonal() * C;
+}
+
+void RestingMap::exchange(State& state, const std::vector<LandmarkId>& active, bool invariant,
+                          double negligible) {
   const auto isActive = [&](const Block& block) {
     return std::binary_search(active.begin(), active.end(), block.id);
   };
   // The resting part up to now: values, covariance X with the state, what is owed to its own.
-  settleDebts();
   Eigen::MatrixXd X = Eigen::MatrixXd::Zero(x_.size(), state.x.size());
   if (state.transfer) {
     const Transfer& transfer = *state.transfer;
@@ -148,7 +258,8 @@ void RestingMap::exchange(State& state, const std::vector<LandmarkId>& active, b
     const Eigen::VectorXd now = values(state);
     const Eigen::VectorXd g = worldTurn(now) - worldTurn(x_);
     x_ = now;
-    const Eigen::MatrixXd D = lowRankFactor(C_, transfer.Psi);
+    const Eigen::MatrixXd D =
+        C_ * lowRankFactor(negligible > 0.0 ? judged() : C_, transfer.Psi, negligible);
     addOwed(D, Eigen::VectorXd::Constant(D.cols(), -1.0));
     if (invariant) {
       // M = I + g e^T for the resting points: P + g w^T + w g^T with w = h + v/2 g, as a
@@ -169,11 +280,8 @@ void RestingMap::exchange(State& state, const std::vector<LandmarkId>& active, b
 
   // Covariance of what enters with all that rested.
   const std::vector<Eigen::Index> in = indicesOf(entering);
-  Eigen::MatrixXd E(x_.size(), static_cast<Eigen::Index>(in.size()));
-  for (std::size_t i = 0; i < in.size(); ++i)
-    E.col(static_cast<Eigen::Index>(i)) = P_.column(in[i]);
-  if (owed_.cols() > 0 && !in.empty())
-    E.noalias() += owed_ * (weights_.asDiagonal() * owed_(in, Eigen::all).transpose());
+  if (resting.empty()) settleDebts();
+  Eigen::MatrixXd E = columnsNow(in);
 
   // What leaves takes its slots. Nothing is owed to what is written now, nor to what leaves here.
   const Eigen::Index former_size = x_.size();
@@ -243,6 +351,8 @@ void RestingMap::exchange(State& state, const std::vector<LandmarkId>& active, b
     C_(rows, to_entering) = E(rows, Eigen::all);
     next.transfer = Transfer{Eigen::MatrixXd::Identity(n, n), Eigen::MatrixXd::Zero(n, n),
                              Eigen::MatrixX3d::Zero(n, 3)};
+    P_state_ = next.P;
+    variance_ = variances();
   }
   state = std::move(next);
 }

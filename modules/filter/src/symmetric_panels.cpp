@@ -42,8 +42,8 @@ void SymmetricPanels::setRowAndColumn(Eigen::Index index, const Eigen::VectorXd&
   }
 }
 
-void SymmetricPanels::addToPanel(Eigen::Index panel, const Eigen::MatrixXd& D,
-                                 const Eigen::VectorXd& weights) {
+void SymmetricPanels::addToPanel(Eigen::Index panel, const Eigen::Ref<const Eigen::MatrixXd>& D,
+                                 const Eigen::Ref<const Eigen::VectorXd>& weights) {
   const Eigen::Index first = panel * kRows;
   const Eigen::Index rows = std::min(kRows, size_ - first);
   const Eigen::Index columns = first + rows;

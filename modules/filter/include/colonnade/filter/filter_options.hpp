@@ -14,6 +14,7 @@ struct FilterOptions {
   double inverse_depth_linearity = 0.1;
   double error_correlation_s = 1.0;
   int active_landmarks = 40;
+  double negligible_gain = 1e-3;
 
   void visit(OptionVisitor& v) {
     v.flag("invariant", invariant, "right-invariant transport of the covariance; false: plain EKF");
@@ -26,6 +27,9 @@ struct FilterOptions {
     v.integer("active_landmarks", active_landmarks, {0, 100000},
               "range-bearing logs: landmarks around the robot worked with where a map holds over "
               "twice as many; the others follow when they are needed; 0: always all");
+    v.number("negligible_gain", negligible_gain, {0, 0.1},
+             "share of a resting landmark's variance that it need not lose each time landmarks "
+             "are exchanged, for speed; 0: exact");
   }
 };
 

@@ -19,7 +19,8 @@ namespace colonnade {
 /// the direction nobody observes is kept just as well, the numbers differ in second order.
 ///
 /// The covariance of resting with resting blocks is the one thing that is large. Its change since
-/// an exchange is of low rank, is kept as such, and is added a few panels at a time by workOff().
+/// an exchange is of low rank and is owed as such; what several exchanges owe is paid together, a
+/// few panels at a time, by workOff().
 class RestingMap {
  public:
   bool empty() const { return blocks_.empty(); }
@@ -27,17 +28,26 @@ class RestingMap {
   Block* find(LandmarkId id);
   const Block* find(LandmarkId id) const;
 
-  /// The values of all resting blocks as of now, at their offsets.
-  Eigen::VectorXd values(const State& state) const;
+  /// The values of a resting block as of now, and of the last exchange.
+  BlockVector value(const Block& block, const State& state) const;
+  BlockVector valueThen(const Block& block) const { return x_.segment(block.offset, block.size()); }
+  /// No resting point has moved farther since the last exchange than so many of its deviations:
+  /// |C theta| <= sigma sqrt(theta^T P theta), P the covariance of the state at that exchange.
+  double largestMove(const State& state) const;
+  /// The variance of the first two parameters of a block together, as of the last exchange.
+  double spread2(const Block& block) const { return variance_.segment<2>(block.offset).sum(); }
   /// Covariance of a resting block as of the last exchange: since then it can only have lost.
   Eigen::MatrixXd covariance(const Block& block) const;
   /// Covariance of the robot with a resting block as of now (3 x size).
   Eigen::MatrixXd covarianceWithRobot(const Block& block, const State& state) const;
 
   /// Brings the resting part up to date and exchanges blocks: afterwards the state holds the blocks
-  /// of `active` (ascending; all of them known here or there), and the others rest.
-  void exchange(State& state, const std::vector<LandmarkId>& active, bool invariant);
-  /// A part of the work the last exchange left.
+  /// of `active` (ascending; all of them known here or there), and the others rest. Of what the
+  /// resting blocks gained, parts are left out that lower no variance by more than a share of
+  /// `negligible`: the covariance of all stays the true one plus something positive semidefinite.
+  void exchange(State& state, const std::vector<LandmarkId>& active, bool invariant,
+                double negligible);
+  /// A part of the work the exchanges left.
   void workOff();
   void remove(LandmarkId id);
 
@@ -47,17 +57,30 @@ class RestingMap {
     Eigen::Index size = 0;
   };
   void addOwed(const Eigen::MatrixXd& D, const Eigen::VectorXd& weights);
+  void pay(Eigen::Index panel);
+  void closeAccount();
   void settleDebts();
+  Eigen::VectorXd values(const State& state) const;
+  BlockVector moved(const Block& block, const Eigen::Ref<const Eigen::MatrixX3d>& step) const;
+  Eigen::VectorXd variances() const;
+  double covarianceAt(Eigen::Index row, Eigen::Index column) const;
+  /// Columns of the covariance of all that rests, debts paid.
+  Eigen::MatrixXd columnsNow(const std::vector<Eigen::Index>& columns) const;
+  /// Rows of C_ in units of their deviations: a part of them, evenly spread.
+  Eigen::MatrixXd judged() const;
   Eigen::VectorXd worldTurn(const Eigen::VectorXd& x) const;
 
   std::vector<Block> blocks_;         ///< those that rest; offset: that of the slot
   std::map<LandmarkId, Slot> slots_;  ///< once given, a block's for good
   Eigen::VectorXd x_;
-  SymmetricPanels P_;     ///< rows of slots whose block does not rest mean nothing
-  Eigen::MatrixXd C_;     ///< covariance with the state at the last exchange; see Transfer
-  Eigen::MatrixXd owed_;  ///< D: P_ still lacks D diag(weights) D^T ...
+  SymmetricPanels P_;         ///< rows of slots whose block does not rest mean nothing
+  Eigen::MatrixXd C_;         ///< covariance with the state at the last exchange; see Transfer
+  Eigen::MatrixXd P_state_;   ///< covariance of the state at the last exchange
+  Eigen::VectorXd variance_;  ///< of every resting parameter at the last exchange
+  Eigen::MatrixXd owed_;      ///< D: P_ still lacks D diag(weights) D^T ...
   Eigen::VectorXd weights_;
-  Eigen::Index panels_done_ = 0;  ///< ... from this panel on
+  Eigen::Index paying_ = 0;       ///< ... but for so many of the first columns
+  Eigen::Index panels_done_ = 0;  ///< in so many of the first panels
 };
 
 }  // namespace colonnade

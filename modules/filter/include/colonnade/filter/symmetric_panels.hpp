@@ -21,9 +21,12 @@ class SymmetricPanels {
   /// Row and column `index` become `values` (size() entries).
   void setRowAndColumn(Eigen::Index index, const Eigen::VectorXd& values);
 
+  static Eigen::Index panelOf(Eigen::Index row) { return row / kRows; }
+  static Eigen::Index firstRow(Eigen::Index panel) { return panel * kRows; }
   Eigen::Index panels() const { return static_cast<Eigen::Index>(panels_.size()); }
   /// Adds D diag(weights) D^T to one panel; D has size() rows.
-  void addToPanel(Eigen::Index panel, const Eigen::MatrixXd& D, const Eigen::VectorXd& weights);
+  void addToPanel(Eigen::Index panel, const Eigen::Ref<const Eigen::MatrixXd>& D,
+                  const Eigen::Ref<const Eigen::VectorXd>& weights);
 
  private:
   static constexpr Eigen::Index kRows = 32;
