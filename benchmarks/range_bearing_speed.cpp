@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // One step of RangeBearingSlam beside one of MRPT's CRangeBearingKFSLAM2D on the same data:
-//   range_bearing_speed [--full] STEPS N...     (--full: no landmark ever rests)
+//   range_bearing_speed [--full] [--hidden] [--ours] STEPS N...
+// --full: no landmark ever rests. --hidden: the readings of the steps measured bear no identity.
+// --ours: nothing of MRPT beside it; --hidden means that too.
 // Fixed density (one landmark on 6 square metres). The map is born before the robot starts, forty
 // landmarks a step; then each step has eight readings with identity. Processor time, so that other
 // programs do not count.
@@ -56,8 +58,10 @@ struct Step {
 /// A robot that circles half-way between the middle and the rim of a square field.
 class Field {
  public:
-  explicit Field(int landmarks)
-      : side_m_(std::sqrt(kArea_m2 * landmarks)), turn_(kWay_m / (0.25 * side_m_)) {
+  Field(int landmarks, bool hidden)
+      : hidden_(hidden),
+        side_m_(std::sqrt(kArea_m2 * landmarks)),
+        turn_(kWay_m / (0.25 * side_m_)) {
     // The circle starts at the origin, to the left.
     std::uniform_real_distribution<double> place(-0.5 * side_m_, 0.5 * side_m_);
     for (int i = 0; i < landmarks; ++i)
@@ -82,7 +86,7 @@ class Field {
         }());
     Step step{mrpt::obs::CActionCollection::Create(), mrpt::obs::CSensoryFrame::Create()};
     step.action->insert(movement);
-    step.frame->insert(ready ? look(0, kReadings) : look(known, kBirths));
+    step.frame->insert(ready ? look(0, kReadings, hidden_) : look(known, kBirths, false));
     return step;
   }
 
@@ -90,7 +94,8 @@ class Field {
   double noise(double sigma) { return std::normal_distribution<double>(0.0, sigma)(random_); }
 
   /// `count` readings, of the landmarks nearest to the robot behind the first `skipped` of them.
-  mrpt::obs::CObservationBearingRange::Ptr look(std::size_t skipped, std::size_t count) {
+  mrpt::obs::CObservationBearingRange::Ptr look(std::size_t skipped, std::size_t count,
+                                                bool hidden) {
     count = std::min(count, landmarks_.size() - skipped);
     std::vector<std::pair<double, std::size_t>> nearest;
     for (std::size_t i = 0; i < landmarks_.size(); ++i)
@@ -109,12 +114,14 @@ class Field {
       reading.range = static_cast<float>(std::max(0.01, p.norm() + noise(kRangeSigma_m)));
       reading.yaw = static_cast<float>(std::atan2(p.y(), p.x()) + noise(kBearingSigma));
       reading.pitch = 0.0F;
-      reading.landmarkID = static_cast<std::int32_t>(nearest[skipped + k].second);
+      reading.landmarkID = hidden ? mrpt::obs::INVALID_LANDMARK_ID
+                                  : static_cast<std::int32_t>(nearest[skipped + k].second);
       scan->sensedData.push_back(reading);
     }
     return scan;
   }
 
+  bool hidden_;
   std::mt19937_64 random_{7};
   double side_m_;
   double turn_;
@@ -146,13 +153,19 @@ void print(int landmarks, const char* name, const Times& times, double ours_ms) 
   std::fflush(stdout);
 }
 
-void run(int landmarks, int steps, bool full) {
+struct Flags {
+  bool full = false;
+  bool hidden = false;
+  bool ours = false;
+};
+
+void run(int landmarks, int steps, const Flags& flags) {
   colonnade::RangeBearingSlam ours;
-  if (full) ours.options.filter.active_landmarks = 0;
+  if (flags.full) ours.options.filter.active_landmarks = 0;
   ours.options.std_sensor_range = kRangeSigma_m;
   ours.options.std_sensor_yaw = kBearingSigma;
   ours.reset();
-  const bool with_mrpt = landmarks <= kLargestForMrpt;
+  const bool with_mrpt = landmarks <= kLargestForMrpt && !flags.ours && !flags.hidden;
   CRangeBearingKFSLAM2D naive, davison;
   for (auto* mrpt : {&naive, &davison}) {
     mrpt->setMinLoggingLevel(mrpt::system::LVL_ERROR);
@@ -162,7 +175,7 @@ void run(int landmarks, int steps, bool full) {
   }
   naive.KF_options.method = mrpt::bayes::kfEKFNaive;
   davison.KF_options.method = mrpt::bayes::kfEKFAlaDavison;
-  Field field(landmarks);
+  Field field(landmarks, flags.hidden);
   Times ours_times, naive_times, davison_times;
   const int births = (landmarks + static_cast<int>(kBirths) - 1) / static_cast<int>(kBirths);
   for (int i = 0; i < births + steps; ++i) {
@@ -181,12 +194,17 @@ void run(int landmarks, int steps, bool full) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const bool full = argc > 1 && std::string_view(argv[1]) == "--full";
-  argv += full, argc -= full;
+  Flags flags;
+  for (; argc > 1 && std::string_view(argv[1]).starts_with("--"); ++argv, --argc) {
+    const std::string_view flag(argv[1]);
+    flags.full |= flag == "--full";
+    flags.hidden |= flag == "--hidden";
+    flags.ours |= flag == "--ours";
+  }
   if (argc < 3) {
-    std::fprintf(stderr, "range_bearing_speed [--full] STEPS N...\n");
+    std::fprintf(stderr, "range_bearing_speed [--full] [--hidden] [--ours] STEPS N...\n");
     return 2;
   }
   std::printf("landmarks  filter              mean ms   worst ms    ratio\n");
-  for (int i = 2; i < argc; ++i) run(std::atoi(argv[i]), std::atoi(argv[1]), full);
+  for (int i = 2; i < argc; ++i) run(std::atoi(argv[i]), std::atoi(argv[1]), flags);
 }

@@ -223,6 +223,53 @@ TEST(RestingMap, ARestingLandmarkIsFoundByItsReading) {
   EXPECT_EQ(resting, found);
 }
 
+/// What is left out makes the covariance of all larger by something positive semidefinite, and no
+/// variance by more than the share allowed.
+TEST(RestingMap, LeavesOutOnlyWhatIsNegligible) {
+  constexpr int kPoints = 60, kActive = 12;
+  constexpr double kShare = 0.05;
+  std::mt19937 random(2);
+  std::normal_distribution<double> normal;
+  State state;
+  std::vector<LandmarkId> all, first, second;
+  for (int i = 0; i < kPoints; ++i) {
+    all.push_back(LandmarkId{i});
+    if (i < kActive) first.push_back(all.back());
+    if (i >= kActive && i < 2 * kActive) second.push_back(all.back());
+    state.blocks.push_back(
+        {all.back(), BlockKind::kPoint, LandmarkKind::kDepthSlope, 3 + 2 * i, {}});
+  }
+  const int n = 3 + 2 * kPoints;
+  // Neighbours are alike: correlation falls with the distance in the order.
+  state.x = Eigen::VectorXd::NullaryExpr(n, [&] { return normal(random); });
+  state.P = Eigen::MatrixXd::NullaryExpr(n, n, [](Eigen::Index r, Eigen::Index c) {
+    const auto apart = static_cast<double>(std::abs(r - c));
+    return std::exp(-0.02 * apart) + std::exp(-0.1 * apart) + std::exp(-0.4 * apart) +
+           (r == c ? 0.1 : 0.0);
+  });
+  RestingMap exact;
+  exact.exchange(state, first, false, 0.0);
+  for (int i = 0; i < kActive; ++i) {
+    Eigen::MatrixXd H(1, 2);
+    H << normal(random), normal(random);
+    const auto correction = SparseJacobian(1).add(0, 3 + 2 * i, H);
+    ASSERT_TRUE(correct(state, correction, Eigen::VectorXd::Constant(1, 0.1),
+                        Eigen::MatrixXd::Constant(1, 1, 0.5), false, 0));
+  }
+  RestingMap loose = exact;
+  State exact_state = state, loose_state = state;
+  exact.exchange(exact_state, second, false, 0.0);
+  loose.exchange(loose_state, second, false, kShare);
+  exact.exchange(exact_state, all, false, 0.0);
+  loose.exchange(loose_state, all, false, 0.0);
+  EXPECT_EQ(0.0, (exact_state.x - loose_state.x).cwiseAbs().maxCoeff());
+  const Eigen::MatrixXd more = loose_state.P - exact_state.P;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(more);
+  EXPECT_GT(eigen.eigenvalues()(0), -1e-12);
+  EXPECT_GT(eigen.eigenvalues().tail(1)(0), 1e-6) << "nothing was left out";
+  EXPECT_LT(more.diagonal().maxCoeff(), kShare * 3.1);
+}
+
 TEST(SymmetricPanels, GrowsAndKeepsBothTriangles) {
   SymmetricPanels panels;
   Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(75, 75);

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "panel_product.hpp"
+
 namespace colonnade {
 
 void SymmetricPanels::grow(Eigen::Index size) {
@@ -44,11 +46,13 @@ void SymmetricPanels::setRowAndColumn(Eigen::Index index, const Eigen::VectorXd&
 
 void SymmetricPanels::addToPanel(Eigen::Index panel, const Eigen::Ref<const Eigen::MatrixXd>& D,
                                  const Eigen::Ref<const Eigen::VectorXd>& weights) {
+  static_assert(kRows == kPanelRows);
   const Eigen::Index first = panel * kRows;
   const Eigen::Index rows = std::min(kRows, size_ - first);
-  const Eigen::Index columns = first + rows;
-  panels_[static_cast<std::size_t>(panel)].topLeftCorner(rows, columns).noalias() +=
-      (D.middleRows(first, rows) * weights.asDiagonal()) * D.topRows(columns).transpose();
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(kRows, D.cols());
+  A.topRows(rows) = D.middleRows(first, rows) * weights.asDiagonal();
+  addPanelProduct(panels_[static_cast<std::size_t>(panel)].data(), first + rows, A.data(), D.data(),
+                  D.outerStride(), D.cols());
 }
 
 }  // namespace colonnade

@@ -9,8 +9,10 @@ namespace colonnade {
 namespace {
 
 constexpr int kFewestStrikes = 5;
-/// A robot that every landmark disagrees with is somewhere else: its pose gets this uncertain.
-constexpr int kLostAfterRefusals = 6;
+/// A robot that every landmark disagrees with is somewhere else: its pose gets this uncertain. With
+/// three outliers in ten readings six refusals in a row come by chance once in a thousand readings,
+/// twelve once in a million.
+constexpr int kLostAfterRefusals = 12;
 constexpr double kLostSigma_m = 0.5;
 constexpr double kLostSigma = radians(30.0);
 
