@@ -153,7 +153,10 @@ void report(const MrclamImportResult& result, const MrclamImportOptions& options
             << formatFixed(result.path_m, 1) << " m\n"
             << "motion     " << formatDouble(c.drive_delay_s) << " s after the command, "
             << formatDouble(c.speed_gain) << " of its speed less " << formatDouble(c.slowed_by_turn)
-            << " m for a radian of turn, " << formatDouble(c.turn_gain) << " of its turn\n"
+            << " m for a radian of turn, " << formatDouble(c.turn_gain) << " of its turn ("
+            << formatDouble(c.turn_gain_on_spot) << " on the spot) once it has run up "
+            << formatDouble(c.breakaway_on_the_way) << " rad ("
+            << formatDouble(c.breakaway_on_spot) << ")\n"
             << "ranges     "
             << (c.range_is_depth ? "from depths along the optical axis, read as " : "read as ")
             << formatDouble(c.depth_offset_m) << " m + " << formatDouble(c.depth_gain)

@@ -51,6 +51,31 @@ class MrclamImport : public ::testing::Test {
     return "";
   }
 
+  /// rms of how far the heading by odometry drifts in 30 s.
+  static double headingDrift(const fs::path& truth_file, const fs::path& log) {
+    const Trajectory truth = readTum(truth_file);
+    std::vector<std::pair<double, double>> off;  // stamp, heading by odometry minus true one
+    RawlogSource source(log);
+    while (const auto frame = source.next()) {
+      const auto at = std::lower_bound(
+          truth.begin(), truth.end(), frame->stamp_s,
+          [](const StampedPose& pose, double stamp_s) { return pose.stamp_s < stamp_s; });
+      if (at == truth.end() || at->stamp_s - frame->stamp_s > 0.05) continue;
+      off.emplace_back(frame->stamp_s,
+                       frame->odometry->T_odom_robot.phi - planarPart(at->T_world_body).phi);
+    }
+    double sum = 0.0;
+    std::size_t count = 0, later = 0;
+    for (const auto& [stamp_s, angle] : off) {
+      while (later < off.size() && off[later].first < stamp_s + 30.0) ++later;
+      if (later == off.size()) break;
+      const double drift = wrapAngle(off[later].second - angle);
+      sum += drift * drift;
+      ++count;
+    }
+    return std::sqrt(sum / static_cast<double>(count));
+  }
+
   fs::path folder_;
   MrclamImportOptions options_;
 };
@@ -118,11 +143,14 @@ TEST_F(MrclamImport, TurnsCommandsIntoMotionAndBarcodeHeightsIntoRanges) {
   ASSERT_EQ(frames.size(), 4u);
   EXPECT_NEAR(frames[0].stamp_s, 10.2, 1e-6);  // stamps stay those of the data set
   // From 10.2 to 10.55 straight with the first command, then 0.4 s turning with the second, which
-  // slows the robot down, then rest.
+  // slows the robot down and begins once the command has run up a little, then rest.
   const Pose2 whole = frames[0].odometry->T_odom_robot.inverse() * frames[3].odometry->T_odom_robot;
-  const double straight_m = 0.35 * c.speed_gain * 0.2;
-  const double turn = 0.4 * c.turn_gain;
-  const double radius_m = (c.speed_gain * 0.2 - c.slowed_by_turn) / c.turn_gain;
+  const double meant = 1.0 - c.turn_offset;
+  const double idle_s = c.breakaway_on_the_way / meant;
+  const double speed_m_s = c.speed_gain * 0.2 - c.slowed_by_turn * meant;
+  const double straight_m = 0.35 * c.speed_gain * 0.2 + idle_s * speed_m_s;
+  const double turn = (0.4 - idle_s) * c.turn_gain * meant;
+  const double radius_m = speed_m_s / (c.turn_gain * meant);
   EXPECT_NEAR(whole.phi, turn, 1e-9);
   EXPECT_NEAR(whole.x, straight_m + radius_m * std::sin(turn), 1e-9);
   EXPECT_NEAR(whole.y, radius_m * (1.0 - std::cos(turn)), 1e-9);
@@ -132,15 +160,63 @@ TEST_F(MrclamImport, TurnsCommandsIntoMotionAndBarcodeHeightsIntoRanges) {
   EXPECT_NEAR(beside.yaw, 0.75, 1e-6);
 }
 
+/// The turn of the robot over the whole log of these commands.
+class MrclamTurns : public MrclamImport {
+ protected:
+  double turnUnder(const std::string& commands) {
+    write("Robot1_Odometry.dat", commands);
+    write("Robot1_Measurement.dat", "10 63 2.5 0.25\n20 63 2.5 0.25\n");
+    options_.calibration = MrclamCalibration{};
+    options_.log = folder_ / ("turns" + std::to_string(++logs_) + ".rawlog");
+    importMrclam(options_);
+    RawlogSource source(options_.log);
+    const Pose2 start = source.next()->odometry->T_odom_robot;
+    return (start.inverse() * source.next()->odometry->T_odom_robot).phi;
+  }
+  const MrclamCalibration c_;
+  int logs_ = 0;
+};
+
+TEST_F(MrclamTurns, RecordsToTheLeftAndRightDifferButTheTurnsDoNot) {
+  const double left = turnUnder("10 0.1 0.3\n12 0 0\n");
+  const double right =
+      turnUnder("10 0.1 " + std::to_string(2.0 * c_.turn_offset - 0.3) + "\n12 0 0\n");
+  EXPECT_NEAR(left, -right, 1e-6);
+  EXPECT_NEAR(left, c_.turn_gain * (2.0 * (0.3 - c_.turn_offset) - c_.breakaway_on_the_way), 1e-6);
+  EXPECT_NEAR(turnUnder("10 0.1 0.0\n12 0 0\n"), 0.0, 1e-9);
+}
+
+TEST_F(MrclamTurns, WideArcsAreOneAndTheSame) {
+  EXPECT_NEAR(turnUnder("10 0.067 0.02\n12 0 0\n"), 2.0 * c_.least_turn_rate, 1e-9);
+  EXPECT_NEAR(turnUnder("10 0.067 0.04\n12 0 0\n"), 2.0 * c_.least_turn_rate, 1e-9);
+  EXPECT_NEAR(turnUnder("10 0.067 0.002\n12 0 0\n"), -2.0 * c_.least_turn_rate, 1e-9);
+}
+
+TEST_F(MrclamTurns, OnTheSpotEveryStartCostsTheSameAngle) {
+  const double meant = 0.4 - c_.turn_offset;
+  const double once = turnUnder("10 0 0.4\n12 0 0\n");
+  EXPECT_NEAR(once, c_.turn_gain_on_spot * (2.0 * meant - c_.breakaway_on_spot), 1e-6);
+  // A flicker of the log is no new start, a pause is one, and so is the other direction.
+  const double missing = c_.turn_gain_on_spot * meant;
+  EXPECT_NEAR(turnUnder("10 0 0.4\n11 0 0\n11.05 0 0.4\n12 0 0\n"), once - 0.05 * missing, 1e-6);
+  EXPECT_NEAR(turnUnder("10 0 0.4\n11 0 0\n11.5 0 0.4\n12 0 0\n"),
+              once - 0.5 * missing - c_.turn_gain_on_spot * c_.breakaway_on_spot, 1e-6);
+  const std::string back = std::to_string(2.0 * c_.turn_offset - 0.4);
+  EXPECT_NEAR(turnUnder("10 0 0.4\n11 0 " + back + "\n12 0 0\n"), 0.0, 1e-6);
+  EXPECT_NEAR(turnUnder("10 0 0.02\n11 0 0\n"), 0.0, 1e-9) << "never gets going";
+}
+
 TEST_F(MrclamImport, CalibrationBringsRobotsItWasNotMadeFromNearerToTheTruth) {
   COLONNADE_REQUIRE_RECORDING(data, "mrclam7");
   options_.folder = data;
   for (const int robot : {4, 5}) {
     options_.robot = robot;
     const auto recorded = importMrclam(options_);
+    const double recorded_drift = headingDrift(recorded.ground_truth, options_.log);
     options_.calibration = MrclamCalibration{};
     options_.log = folder_ / ("calibrated" + std::to_string(robot) + ".rawlog");
     const auto calibrated = importMrclam(options_);
+    const double drift = headingDrift(calibrated.ground_truth, options_.log);
     options_.calibration = MrclamCalibration::asRecorded();
     options_.log = folder_ / ("recorded" + std::to_string(robot + 1) + ".rawlog");
     const Trajectory truth = readTum(calibrated.ground_truth);
@@ -154,6 +230,7 @@ TEST_F(MrclamImport, CalibrationBringsRobotsItWasNotMadeFromNearerToTheTruth) {
       }
     EXPECT_NEAR(calibrated.path_m / way_m, 1.0, 0.03) << robot;
     EXPECT_GT(recorded.path_m / way_m, 1.05) << robot;
+    EXPECT_LT(drift, 0.9 * recorded_drift) << robot;
   }
 }
 

@@ -8,6 +8,7 @@
 #include "colonnade/base/error.hpp"
 #include "colonnade/base/log_path.hpp"
 #include "colonnade/frames/rawlog_writer.hpp"
+#include "mrclam_drive.hpp"
 #include "mrclam_folder.hpp"
 
 namespace colonnade {
@@ -22,15 +23,7 @@ constexpr double kWidestBearing = radians(80.0);  ///< no camera sees wider
 /// Wheel speeds as a function of time, walked through once.
 class Wheels {
  public:
-  Wheels(std::vector<WheelSpeed> commands, const MrclamCalibration& calibration)
-      : speeds_(std::move(commands)) {
-    const double delay_s = calibration.drive_delay_s + calibration.camera_delay_s;
-    for (WheelSpeed& speed : speeds_) {
-      speed.stamp_s += delay_s;
-      speed.speed_m_s = driven(speed, calibration);
-      speed.turn_rate *= calibration.turn_gain;
-    }
-  }
+  explicit Wheels(std::vector<WheelSpeed> driven) : speeds_(std::move(driven)) {}
 
   /// The motion from one time to a later one. Nothing is known before the first record: rest.
   ArcSum between(double from_s, double to_s, const WheelSpeedNoise& noise) {
@@ -49,13 +42,6 @@ class Wheels {
   }
 
  private:
-  /// A turn slows the robot down, but never turns it round; turning on the spot it stays there.
-  static double driven(const WheelSpeed& command, const MrclamCalibration& calibration) {
-    const double straight = calibration.speed_gain * command.speed_m_s;
-    const double lost = calibration.slowed_by_turn * std::abs(command.turn_rate);
-    return std::copysign(std::max(0.0, std::abs(straight) - lost), straight);
-  }
-
   std::vector<WheelSpeed> speeds_;
   std::size_t current_ = 0;
 };
@@ -99,6 +85,12 @@ MrclamCalibration MrclamCalibration::asRecorded() {
           .speed_gain = 1.0,
           .slowed_by_turn = 0.0,
           .turn_gain = 1.0,
+          .turn_gain_on_spot = 1.0,
+          .turn_offset = 0.0,
+          .least_turn_rate = 0.0,
+          .least_turn_below = 0.0,
+          .breakaway_on_the_way = 0.0,
+          .breakaway_on_spot = 0.0,
           .camera_delay_s = 0.0,
           .range_is_depth = false,
           .depth_offset_m = 0.0,
@@ -141,7 +133,7 @@ MrclamImportResult importMrclam(const MrclamImportOptions& options) {
     throw Error(options.folder.string() + ": no such folder");
   const auto subject_of_barcode = readSubjectOfBarcode(options.folder);
   const auto readings = readBarcodeReadings(options.folder, options.robot);
-  Wheels wheels(readWheelSpeeds(options.folder, options.robot), options.calibration);
+  Wheels wheels(drivenSpeeds(readWheelSpeeds(options.folder, options.robot), options.calibration));
   const Trajectory truth = readMrclamTruth(options.folder, options.robot);
 
   MrclamImportResult result;
