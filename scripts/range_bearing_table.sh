@@ -53,7 +53,7 @@ for robot in 1 2 3 4 5; do
     [ -e "$folder" ] || "$colonnade" run "$log" -o "$folder" --set $set >"$folder.txt" 2>&1
     figures $robot "$name" "$folder/trajectory.tum" "$folder/landmarks.csv" "$folder/summary.json"
   done
-  "$build/tests/slam/kf_slam_log" "$log" "$out/$robot.tum" "$out/$robot.csv" 0.1 1.5
+  "$build/tests/slam/kf_slam_log" "$log" "$out/$robot.tum" "$out/$robot.csv" 0.05 0.6
   figures $robot "e) MRPT kf-slam" "$out/$robot.tum" "$out/$robot.csv" ""
   [ -e "$out/${robot}d" ] ||
     "$colonnade" baseline dead-reckoning "$log" -o "$out/${robot}d" >"$out/${robot}d.txt" 2>&1
