@@ -18,6 +18,10 @@ class LineRefiner {
   void refine(const Straight& guess, RefinedLines& lines);
 
  private:
+  /// The line, or its parts where it is broken.
+  void appendStraightParts(const RefinedLine& line, const Samples& samples,
+                           RefinedLines& lines) const;
+
   Walker walker_;
   bool steep_;
   LineRefinementOptions options_;

@@ -149,6 +149,77 @@ std::optional<RefinedLine> fitRun(Samples& samples, bool steep, int sign,
   return result;
 }
 
+/// Sums over samples 0 to i, for the residual of a straight line through any stretch in O(1).
+class StretchCosts {
+ public:
+  explicit StretchCosts(std::span<const Sample> samples) : sums_(samples.size() + 1) {
+    const double origin = samples.empty() ? 0.0 : samples.front().s;
+    const double level = samples.empty() ? 0.0 : samples.front().across;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      const double s = samples[i].s - origin, t = samples[i].across - level;
+      const Sums& a = sums_[i];
+      sums_[i + 1] = {a.s + s, a.t + t, a.ss + s * s, a.st + s * t, a.tt + t * t};
+    }
+  }
+  /// Sum of squared residuals of samples [first, last).
+  double operator()(std::size_t first, std::size_t last) const {
+    const auto n = static_cast<double>(last - first);
+    const Sums &a = sums_[first], &b = sums_[last];
+    const double s = b.s - a.s, t = b.t - a.t;
+    const double ss = b.ss - a.ss - s * s / n;
+    const double st = b.st - a.st - s * t / n;
+    const double tt = b.tt - a.tt - t * t / n;
+    return ss > 0.0 ? std::max(0.0, tt - st * st / ss) : std::max(0.0, tt);
+  }
+
+ private:
+  struct Sums {
+    double s = 0.0, t = 0.0, ss = 0.0, st = 0.0, tt = 0.0;
+  };
+  std::vector<Sums> sums_;
+};
+
+/// Where a second straight line begins, if two explain the samples so much better than one that
+/// noise cannot be the reason: the feet of a wall and of a door in it, some centimetres farther
+/// back, look like one slanting line (F test for a break at an unknown place, after A. Chow, "Tests
+/// of equality between sets of coefficients in two linear regressions", Econometrica 1960).
+std::optional<std::size_t> breakOf(std::span<const Sample> samples, double correlated_samples) {
+  constexpr std::size_t kLeast = 10;  // samples of a part
+  constexpr double kLeastSigma_px = 0.1;
+  constexpr double kImprobable = 16.0;  // chi-squared, the place being free
+  const std::size_t n = samples.size();
+  if (n < 2 * kLeast) return std::nullopt;
+  const StretchCosts cost(samples);
+  std::size_t best = kLeast;
+  double least = cost(0, n);
+  const double whole = least;
+  for (std::size_t i = kLeast; i + kLeast <= n; ++i) {
+    const double parts = cost(0, i) + cost(i, n);
+    if (parts >= least) continue;
+    least = parts;
+    best = i;
+  }
+  const double variance =
+      std::max(kLeastSigma_px * kLeastSigma_px, least / (static_cast<double>(n) - 4.0));
+  if (whole - least < kImprobable * correlated_samples * variance) return std::nullopt;
+  // Lenses bend lines by less than this.
+  constexpr double kApart_px = 0.5;
+  const auto one = leastSquares(samples, nullptr);
+  for (const auto part : {samples.first(best), samples.subspan(best)}) {
+    const auto line = leastSquares(part, nullptr);
+    if (!one || !line) continue;
+    for (const double s : {part.front().s, part.back().s})
+      if (std::abs(one->across(s) - line->across(s)) > kApart_px) return best;
+  }
+  return std::nullopt;
+}
+
+/// Uprights are not broken: lenses bend long ones a little.
+bool mayBreak(const RefinedLine& line) {
+  constexpr double kUpright = radians(20.0);
+  return !line.steep || std::abs(line.slope) > std::tan(kUpright);
+}
+
 /// What a line is compared by.
 struct Placed {
   Eigen::Vector2d begin, end;  ///< px
@@ -218,9 +289,26 @@ void LineRefiner::refine(const Straight& guess, RefinedLines& lines) {
       some_.assign(run.begin(), run.end());
       const auto line = fitRun(some_, steep_, sign, options_);
       if (!line) continue;
-      lines.push_back(*line);
       walker_.take(some_, sign);
+      if (mayBreak(*line))
+        appendStraightParts(*line, some_, lines);
+      else
+        lines.push_back(*line);
     }
+  }
+}
+
+void LineRefiner::appendStraightParts(const RefinedLine& line, const Samples& samples,
+                                      RefinedLines& lines) const {
+  const auto at = breakOf(samples, options_.correlated_samples);
+  if (!at) {
+    lines.push_back(line);
+    return;
+  }
+  const auto middle = samples.begin() + static_cast<std::ptrdiff_t>(*at);
+  for (Samples part : {Samples(samples.begin(), middle), Samples(middle, samples.end())}) {
+    const auto fitted = fitRun(part, steep_, line.gradient_sign, options_);
+    if (fitted) appendStraightParts(*fitted, part, lines);
   }
 }
 
