@@ -16,63 +16,79 @@ namespace {
 constexpr double kNearest_m = 0.2;
 constexpr double kFarthest_m = 15.0;
 
-/// Forward distances of all pixels, sorted into (column, band).
+struct Sample {
+  float z = 0.0F;       ///< forward, m
+  float offset = 0.0F;  ///< of the ray from the middle of its column, columns
+};
+
+/// All pixels, sorted into (column, band).
 class Bins {
  public:
   Bins(int columns, int rows)
       : rows_(static_cast<std::size_t>(rows)),
         counts_(static_cast<std::size_t>(columns) * DepthProfile::kBands, 0),
-        values_(std::make_unique_for_overwrite<float[]>(counts_.size() * rows_)) {}
+        values_(std::make_unique_for_overwrite<Sample[]>(counts_.size() * rows_)) {}
 
-  void add(int column, int band, float z) {
+  void add(int column, int band, Sample sample) {
     const std::size_t bin =
         static_cast<std::size_t>(column) * DepthProfile::kBands + static_cast<std::size_t>(band);
-    if (counts_[bin] < rows_) values_[bin * rows_ + counts_[bin]++] = z;
+    if (counts_[bin] < rows_) values_[bin * rows_ + counts_[bin]++] = sample;
   }
 
-  void summarise(DepthProfile::Column& column, int index, int min_pixels) {
+  /// `slope` and `slope_step`: of the middle of the column and from column to column.
+  void summarise(DepthProfile::Column& column, int index, int min_pixels, double slope,
+                 double slope_step) {
     all_.clear();
     for (std::size_t band = 0; band < DepthProfile::kBands; ++band) {
       const std::size_t bin = static_cast<std::size_t>(index) * DepthProfile::kBands + band;
       if (static_cast<int>(counts_[bin]) < min_pixels) continue;
-      const float* const first = values_.get() + bin * rows_;
+      const Sample* const first = values_.get() + bin * rows_;
       band_.assign(first, first + counts_[bin]);
       all_.insert(all_.end(), band_.begin(), band_.end());
-      column.band_z[band] = middleOf(band_).z;
+      const Middle middle = middleOf(band_);
+      column.band_z[band] = middle.z;
+      column.band_slope[band] = slope + slope_step * middle.offset;
     }
     const Middle middle = middleOf(all_);
     column.z = middle.z;
+    column.slope = slope + slope_step * middle.offset;
     column.pixels = middle.pixels;
   }
 
  private:
   struct Middle {
     double z = 0.0;
+    double offset = 0.0;
     int pixels = 0;
   };
 
   /// The mean inverse depth of what lies within three sigma of the median. Depth comes in steps of
   /// disparity that are wider than its noise averaged over a column: a median would keep the steps.
-  static Middle middleOf(std::vector<float>& values) {
-    if (values.empty()) return {};
-    const double median = static_cast<double>(medianOf(values));
+  /// An upright plane is straight in inverse depth over the offset, so the means of both lie on it.
+  Middle middleOf(const std::vector<Sample>& samples) {
+    if (samples.empty()) return {};
+    z_.resize(samples.size());
+    std::transform(samples.begin(), samples.end(), z_.begin(), [](const Sample& s) { return s.z; });
+    const double median = static_cast<double>(medianOf(z_));
     const double reach = 3.0 * kinectDepthSigma(median);
-    double sum = 0.0;
+    double sum = 0.0, offsets = 0.0;
     int pixels = 0;
-    for (const float value : values) {
-      const auto z = static_cast<double>(value);
+    for (const Sample& sample : samples) {
+      const auto z = static_cast<double>(sample.z);
       if (std::abs(z - median) > reach) continue;
       sum += 1.0 / z;
+      offsets += static_cast<double>(sample.offset);
       ++pixels;
     }
-    return {pixels / sum, pixels};
+    return {pixels / sum, offsets / pixels, pixels};
   }
 
   std::size_t rows_;
   std::vector<std::size_t> counts_;
-  std::unique_ptr<float[]> values_;
-  std::vector<float> band_;
-  std::vector<float> all_;
+  std::unique_ptr<Sample[]> values_;
+  std::vector<Sample> band_;
+  std::vector<Sample> all_;
+  std::vector<float> z_;
 };
 
 }  // namespace
@@ -119,13 +135,13 @@ DepthProfile makeDepthProfile(const Frame& frame, const DepthProfileOptions& opt
       const auto index = static_cast<int>(column + 0.5);
       const int band = std::min(static_cast<int>((height - options.min_height_m) / band_height),
                                 DepthProfile::kBands - 1);
-      bins.add(index, band, static_cast<float>(depth * ahead));
+      bins.add(index, band,
+               {static_cast<float>(depth * ahead), static_cast<float>(column - index)});
     }
   }
   for (int i = 0; i < columns; ++i) {
-    auto& column = profile.columns[static_cast<std::size_t>(i)];
-    column.slope = (i - middle) / profile.focal_px;
-    bins.summarise(column, i, options.min_pixels);
+    bins.summarise(profile.columns[static_cast<std::size_t>(i)], i, options.min_pixels,
+                   (i - middle) / profile.focal_px, 1.0 / profile.focal_px);
   }
   return profile;
 }

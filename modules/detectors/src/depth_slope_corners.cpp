@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "depth_slope_round.hpp"
+#include "statistics.hpp"
 
 namespace colonnade {
 namespace {
@@ -25,8 +26,11 @@ class Finder {
  public:
   Finder(const InverseColumns& columns, double focal_px, const DepthSlopeOptions& options)
       : columns_(columns), focal_px_(focal_px), options_(options), fits_(columns) {
-    for (const auto& piece : straightPieces(columns, kPieceCost, kStrayCost))
-      if (isStrong(piece)) addSurface(piece);
+    std::vector<InverseLine> pieces = straightPieces(columns, kPieceCost, kStrayCost);
+    std::erase_if(pieces, [&](const InverseLine& piece) { return !isStrong(piece); });
+    noise_ = columnNoise(columns, pieces);
+    fits_.assumeScale(noise_.scale);
+    for (const auto& piece : pieces) addSurface(piece);
     markRound();
   }
 
@@ -45,6 +49,8 @@ class Finder {
  private:
   struct Surface {
     InverseLine line;
+    std::size_t first_end = 0;   ///< of the straight piece at its left end
+    std::size_t last_begin = 0;  ///< of the one at its right end
     bool round = false;
   };
 
@@ -70,10 +76,11 @@ class Finder {
       const double step_m = std::abs(1.0 / before.at(s) - 1.0 / piece.at(s));
       if (angleBetween(before, piece) < options_.min_turn / 3.0 && step_m < reliefAt(s, before)) {
         before = fits_.fit(before.first, piece.last);
+        surfaces_.back().last_begin = piece.first;
         return;
       }
     }
-    surfaces_.push_back({piece});
+    surfaces_.push_back({piece, piece.last, piece.first});
   }
 
   double columnSigma(double s, const InverseLine& line) const {
@@ -123,6 +130,18 @@ class Finder {
   }
 
   /// The part of a surface within the window beside its right or left end.
+  InverseLine beside(const Surface& surface, bool right) const {
+    const InverseLine& line = surface.line;
+    const InverseLine whole = beside(line, right);
+    // A wall beside a door frame that stands out from it is not straight: its line would be turned
+    // by far more than the covariance says. Lenses bend walls too, by less.
+    constexpr double kBent = 4.0;
+    if (whole.cost < kBent * noise_.scale * static_cast<double>(whole.columns())) return whole;
+    return beside(
+        right ? fits_.fit(surface.last_begin, line.last) : fits_.fit(line.first, surface.first_end),
+        right);
+  }
+
   InverseLine beside(const InverseLine& line, bool right) const {
     const Eigen::Vector2d end = endOf(line, right);
     std::size_t first = line.first, last = line.last;
@@ -148,13 +167,13 @@ class Finder {
     constexpr double kOfColumn = 0.3;
     const double sigma_m = std::min(kOfColumn * unresolved(line, s), 0.25 * options_.relief_m);
     const double sigma_q = sigma_m * line.q_middle * std::hypot(line.b, line.at(0.0));
-    line.covariance(0, 0) += sigma_q * sigma_q / kSharedColumns;
+    line.covariance(0, 0) += sigma_q * sigma_q / noise_.shared;
     return line;
   }
 
   /// The surfaces left and right meet in a corner where both are seen to end.
   std::optional<SliceCorner> meeting(const InverseLine& left, const InverseLine& right) const {
-    auto corner = intersection(left, right, kSharedColumns);
+    auto corner = intersection(left, right, noise_.shared);
     if (!corner || !(corner->q > 0.0)) return std::nullopt;
     const double tolerance =
         options_.reach_px / focal_px_ + 2.0 * std::sqrt(corner->covariance(0, 0));
@@ -166,9 +185,34 @@ class Finder {
   }
 
   bool areConnected(std::size_t i) const {
-    const auto& left = surfaces_[i].line;
-    const auto& right = surfaces_[i + 1].line;
-    return meeting(beside(left, true), beside(right, false)).has_value();
+    return meeting(beside(surfaces_[i], true), beside(surfaces_[i + 1], false)).has_value();
+  }
+
+  /// Whether columns beyond the corner show the surface that should have ended there instead of the
+  /// other one, as where a cabinet stands a hand's breadth before a wall: then the planes cross
+  /// where nothing is. Only of corners that point away from the camera; columns that cover both
+  /// sides of a true one err the other way.
+  bool goesOnPast(const SliceCorner& corner, const InverseLine& ending,
+                  const InverseLine& other) const {
+    constexpr double kFarthest_px = 12.0;
+    constexpr double kGap_m = 0.025, kSigmas = 5.0;
+    const bool to_right = ending.first < other.first;
+    const double sigma_s = std::sqrt(corner.covariance(0, 0));
+    for (std::size_t i = std::min(ending.first, other.first); i < std::max(ending.last, other.last);
+         ++i) {
+      const double beyond = (to_right ? 1.0 : -1.0) * (sAt(i) - corner.s);
+      if (beyond < sigma_s) continue;
+      if (beyond > kFarthest_px / focal_px_ || !(other.at(sAt(i)) > 0.0)) continue;
+      const double variance =
+          noise_.scale * columns_[i].variance + noise_.shared * other.variance(sAt(i));
+      // How far towards the surface that should have ended.
+      const double way = ending.at(sAt(i)) > other.at(sAt(i)) ? 1.0 : -1.0;
+      const double off = way * (columns_[i].q - other.at(sAt(i)));
+      if (off > kSigmas * std::sqrt(variance) &&
+          std::abs(1.0 / columns_[i].q - 1.0 / other.at(sAt(i))) > kGap_m)
+        return true;
+    }
+    return false;
   }
 
   bool isConvex(const InverseLine& left, const InverseLine& right) const {
@@ -198,10 +242,9 @@ class Finder {
   }
 
   std::optional<SliceCorner> between(std::size_t i, std::size_t j) const {
-    const InverseLine& i_line = surfaces_[i].line;
     const InverseLine& j_line = surfaces_[j].line;
-    const InverseLine left = withRelief(beside(i_line, true), true, j_line.first);
-    const InverseLine right = withRelief(beside(j_line, false), false, left.last);
+    const InverseLine left = withRelief(beside(surfaces_[i], true), true, j_line.first);
+    const InverseLine right = withRelief(beside(surfaces_[j], false), false, left.last);
     std::optional<SliceCorner> corner = meeting(left, right);
     if (corner && isConvex(left, right))
       corner = meeting(withHiddenRelief(left, corner->s), withHiddenRelief(right, corner->s));
@@ -211,6 +254,9 @@ class Finder {
       if (corner->turn < options_.min_turn) return std::nullopt;
       if (!isConvex(left, right) && !options_.concave) return std::nullopt;
       round = surfaces_[i].round && surfaces_[j].round;
+      if (!isConvex(left, right) &&
+          (goesOnPast(*corner, left, right) || goesOnPast(*corner, right, left)))
+        corner->refusal = "a gap between the surfaces";
     } else if (options_.occlusions) {
       corner = jump(left, right);
       if (!corner) return std::nullopt;
@@ -220,6 +266,7 @@ class Finder {
     if (round) corner->refusal = "the outline of something round";
     corner->left = left;
     corner->right = right;
+    corner->noise_scale = noise_.scale;
     return corner;
   }
 
@@ -229,9 +276,20 @@ class Finder {
                     std::size_t limit) const {
     constexpr double kReach = 12.0 / 580.0;
     constexpr double kRounded_m = 0.1;
-    const double end = sAt(right ? near.last - 1 : near.first);
+    // Columns that few rows see are the fray of the outline.
+    constexpr double kFray = 0.25;
+    constexpr std::size_t kReference = 8;
+    std::vector<int> pixels;
+    for (std::size_t k = 0; k < std::min(kReference, near.columns()); ++k)
+      pixels.push_back(columns_[right ? near.last - 1 - k : near.first + k].pixels);
+    const double enough = kFray * medianOf(pixels);
+    std::size_t end_column = right ? near.last - 1 : near.first;
+    for (std::size_t k = 0; k + 1 < near.columns() && columns_[end_column].pixels < enough; ++k)
+      right ? --end_column : ++end_column;
+    const double end = sAt(end_column);
     double s = end;
     const auto take = [&](std::size_t i) {
+      if (columns_[i].pixels < enough) return false;
       const double z_near = 1.0 / near.at(sAt(i)), z_far = 1.0 / far.at(sAt(i));
       const double beyond_m = 1.0 / columns_[i].q - z_near;
       if (std::abs(sAt(i) - end) > kReach || !(z_near > 0.0) ||
@@ -247,16 +305,37 @@ class Finder {
     return s;
   }
 
+  /// Pixels at an outline show what lies some pixels farther in (Nguyen, Izadi and Lovell 2012,
+  /// lateral noise): on a slanting surface they are all too near or all too far.
+  InverseLine withoutFray(const InverseLine& line, bool right) const {
+    constexpr double kFray = 3.0 / 580.0;
+    constexpr std::size_t kEnough = 12;  // columns: fewer cannot be extrapolated to the outline
+    std::size_t first = line.first, last = line.last;
+    const double end = sAt(right ? last - 1 : first);
+    while (right && last - first > kEnough && sAt(last - 1) > end - kFray) --last;
+    while (!right && last - first > kEnough && sAt(first) < end + kFray) ++first;
+    // What was moved onto a lip consists of such pixels alone.
+    if (std::abs(fits_.fit(line.first, line.last).at(line.middle) - line.q_middle) > 1e-9) {
+      constexpr double kInward = 0.4;  // columns
+      const double sigma_q = kInward * line.b / focal_px_;
+      InverseLine doubtful = line;
+      doubtful.covariance(0, 0) += sigma_q * sigma_q / noise_.shared;
+      return doubtful;
+    }
+    return fits_.fit(first, last);
+  }
+
   std::optional<SliceCorner> jump(const InverseLine& left, const InverseLine& right) const {
     const double s_left = sAt(left.last - 1), s_right = sAt(right.first);
     SliceCorner corner;
     corner.jump = true;
     corner.far_on_right = left.at(s_left) > right.at(s_right);
-    const InverseLine& near = corner.far_on_right ? left : right;
+    InverseLine near = corner.far_on_right ? left : right;
     const InverseLine& far = corner.far_on_right ? right : left;
     const double half_px = 0.5 / focal_px_;
     corner.s = corner.far_on_right ? outlineEnd(left, far, true, right.first) + half_px
                                    : outlineEnd(right, far, false, left.last) - half_px;
+    near = withoutFray(near, corner.far_on_right);
     corner.q = near.at(corner.s);
     if (!(corner.q > 0.0 && far.at(corner.s) > 0.0)) return std::nullopt;
     corner.step_m = 1.0 / far.at(corner.s) - 1.0 / corner.q;
@@ -265,11 +344,11 @@ class Finder {
     for (std::size_t i = left.last; i < right.first; ++i)
       if (columns_[i].q > 1.01 * near.at(sAt(i)) + 4.0 * std::sqrt(columns_[i].variance))
         return std::nullopt;
-    const double edge_px = options_.edge_sigma_px * (0.25 + 0.75 * focal_px_ / 580.0);
+    const double edge_px = options_.edge_sigma_px * (0.5 + 0.5 * focal_px_ / 580.0);
     const double hidden_m = unresolved(near, corner.s);
-    const double hidden_px = 1.2 * hidden_m / (hidden_m + kResolved_m);
+    const double hidden_px = 0.5 * hidden_m / (hidden_m + kResolved_m);
     const double variance_s = (edge_px * edge_px + hidden_px * hidden_px) / (focal_px_ * focal_px_);
-    const double variance_q = kSharedColumns * withHiddenRelief(near, corner.s).variance(corner.s);
+    const double variance_q = noise_.shared * withHiddenRelief(near, corner.s).variance(corner.s);
     corner.covariance << variance_s, near.b * variance_s, near.b * variance_s,
         variance_q + near.b * near.b * variance_s;
     return corner;
@@ -279,6 +358,7 @@ class Finder {
   double focal_px_;
   const DepthSlopeOptions& options_;
   InverseLineFits fits_;
+  ColumnNoise noise_;
   std::vector<Surface> surfaces_;
 };
 
@@ -313,7 +393,9 @@ std::optional<bool> isSeenIn(const InverseColumns& band, const InverseColumns& c
     for (const auto& column : band)
       if (column.s >= low && column.s <= high) inside.push_back(column);
     if (inside.size() < 3 || inside.size() * 2 < line.columns()) return std::nullopt;
-    return InverseLineFits(inside).fit(0, inside.size());
+    InverseLineFits fits(inside);
+    fits.assumeScale(std::max(1.0, corner.noise_scale));
+    return fits.fit(0, inside.size());
   };
   const auto left = sideIn(*corner.left);
   const auto right = sideIn(*corner.right);
@@ -331,7 +413,9 @@ std::optional<bool> isSeenIn(const InverseColumns& band, const InverseColumns& c
       return std::nullopt;  // at these heights something stands before it
     const double step_m =
         1.0 / std::max(far.at(corner.s), 1e-3) - 1.0 / std::max(near.at(corner.s), 1e-3);
-    return nearBy(near, whole) && step_m > 0.5 * corner.step_m;
+    const double z_near = 1.0 / std::max(near.at(corner.s), 1e-3);
+    const double sigma_m = std::sqrt(kSharedColumns * near.variance(corner.s)) * z_near * z_near;
+    return nearBy(near, whole) && step_m + 3.0 * sigma_m > 0.5 * corner.step_m;
   }
   if (!nearBy(*left, *corner.left) || !nearBy(*right, *corner.right)) return false;
   const auto there = intersection(*left, *right, kSharedColumns);

@@ -21,6 +21,7 @@ struct SliceCorner {
   double step_m = 0.0;                     ///< of jumps: how much farther
   double turn = 0.0;                       ///< of others: angle between the surfaces
   std::optional<InverseLine> left, right;  ///< what was measured beside it
+  double noise_scale = 1.0;                ///< of the variances of this frame's columns
   std::string refusal;
 
   Eigen::Vector2d p_slice() const { return Eigen::Vector2d(s, 1.0) / q; }

@@ -3,6 +3,8 @@
 #include "depth_slope_segments.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
 
 #include "colonnade/detectors/depth_noise.hpp"
@@ -22,14 +24,15 @@ InverseColumns inverseColumns(const DepthProfile& profile, int band) {
   result.reserve(profile.columns.size());
   for (std::size_t i = 0; i < profile.columns.size(); ++i) {
     const auto& column = profile.columns[i];
-    const double z = band < 0 ? column.z : column.band_z[static_cast<std::size_t>(band)];
+    const auto b = static_cast<std::size_t>(std::max(0, band));
+    const double z = band < 0 ? column.z : column.band_z[b];
     if (!(z > 0.0)) continue;
     const double sigma = kinectDepthSigma(z) / (z * z);
     const double pixels = std::max(1, band < 0 ? column.pixels : column.pixels / 3);
     constexpr double kSharedByRows = 1.5;
-    result.push_back({column.slope, 1.0 / z,
-                      kFloor * kFloor + kSharedByRows * sigma * sigma / pixels,
-                      static_cast<int>(i)});
+    result.push_back({band < 0 ? column.slope : column.band_slope[b], 1.0 / z,
+                      kFloor * kFloor + kSharedByRows * sigma * sigma / pixels, static_cast<int>(i),
+                      column.pixels});
   }
   return result;
 }
@@ -78,9 +81,38 @@ InverseLine InverseLineFits::fit(std::size_t first, std::size_t last) const {
   line.covariance(1, 1) = 1.0 / n.ss;
   line.cost = std::max(0.0, n.qq - n.sq * n.sq / n.ss);
   // What the columns say of their own scatter counts, with a few of prior knowledge.
-  constexpr double kPrior = 3.0;
-  line.covariance *= (line.cost + kPrior) / (static_cast<double>(last - first) - 2.0 + kPrior);
+  constexpr double kPrior = 5.0;
+  line.covariance *=
+      (line.cost + kPrior * scale_) / (static_cast<double>(last - first) - 2.0 + kPrior);
   return line;
+}
+
+ColumnNoise columnNoise(const InverseColumns& columns, const std::vector<InverseLine>& pieces) {
+  constexpr std::size_t kLags = 3;  // sensors correlate small windows
+  constexpr double kPrior = 30.0;   // columns
+  const ColumnNoise usual;
+  std::array<double, kLags + 1> sums{}, counts{};
+  double freedom = 0.0;
+  for (const InverseLine& piece : pieces) {
+    const auto residual = [&](std::size_t i) {
+      return (columns[i].q - piece.at(columns[i].s)) / std::sqrt(columns[i].variance);
+    };
+    freedom += static_cast<double>(piece.columns()) - 2.0;
+    for (std::size_t i = piece.first; i < piece.last; ++i)
+      for (std::size_t lag = 0; lag <= kLags && i + lag < piece.last; ++lag) {
+        if (columns[i + lag].index != columns[i].index + static_cast<int>(lag)) break;
+        sums[lag] += residual(i) * residual(i + lag);
+        counts[lag] += 1.0;
+      }
+  }
+  if (!(sums[0] > 0.0 && freedom > 0.0)) return usual;
+  double shared = 1.0;
+  for (std::size_t lag = 1; lag <= kLags; ++lag)
+    if (counts[lag] > 0.0) shared += 2.0 * (sums[lag] / counts[lag]) / (sums[0] / counts[0]);
+  ColumnNoise noise;
+  noise.scale = (kPrior * usual.scale + sums[0]) / (kPrior + freedom);
+  noise.shared = (kPrior * usual.shared + freedom * std::max(1.0, shared)) / (kPrior + freedom);
+  return noise;
 }
 
 std::vector<InverseLine> straightPieces(const InverseColumns& columns, double piece_cost,

@@ -17,6 +17,7 @@ struct InverseColumn {
   double q = 0.0;
   double variance = 0.0;  ///< of q
   int index = 0;          ///< in the profile
+  int pixels = 0;         ///< that q is the mean of
 };
 using InverseColumns = std::vector<InverseColumn>;
 
@@ -51,6 +52,8 @@ class InverseLineFits {
   explicit InverseLineFits(const InverseColumns& columns);
   InverseLine fit(std::size_t first, std::size_t last) const;
   double cost(std::size_t first, std::size_t last) const;
+  /// Of all columns: what their variances must be multiplied by, known before a line is fitted.
+  void assumeScale(double scale) { scale_ = scale; }
 
  private:
   struct Sums {
@@ -58,7 +61,16 @@ class InverseLineFits {
   };
   Sums between(std::size_t first, std::size_t last) const;
   std::vector<Sums> sums_;
+  double scale_ = 1.0;
 };
+
+/// What the columns scatter about the lines that were fitted to them.
+struct ColumnNoise {
+  double scale = 1.0;   ///< of their variances
+  double shared = 2.2;  ///< columns that have one error in common: 1 + 2 * sum of autocorrelation
+};
+/// Both from the residuals of all pieces together, the more the fewer columns they have.
+ColumnNoise columnNoise(const InverseColumns& columns, const std::vector<InverseLine>& pieces);
 
 /// The surfaces of a slice: the piecewise straight line of least cost, where each piece costs
 /// `piece_cost` and a column that belongs to none `stray_cost`, both in units of chi-squared.

@@ -33,10 +33,11 @@ struct DepthProfileOptions {
 struct DepthProfile {
   static constexpr int kBands = 3;  ///< equal parts of the height range, lowest first
   struct Column {
-    double slope = 0.0;  ///< x / z of the column
+    double slope = 0.0;  ///< x / z, mean of the rays that z comes from
     double z = 0.0;      ///< harmonic mean over all heights, without outliers; 0 = not measured
-    std::array<double, kBands> band_z{};  ///< the same in each band
-    int pixels = 0;                       ///< that z is the mean of
+    std::array<double, kBands> band_z{};      ///< the same in each band
+    std::array<double, kBands> band_slope{};  ///< and their slopes
+    int pixels = 0;                           ///< that z is the mean of
     double x() const { return slope * z; }
     Eigen::Vector2d point() const { return {x(), z}; }
     bool valid() const { return z > 0.0; }
