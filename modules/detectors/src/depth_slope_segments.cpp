@@ -81,7 +81,7 @@ InverseLine InverseLineFits::fit(std::size_t first, std::size_t last) const {
   line.covariance(1, 1) = 1.0 / n.ss;
   line.cost = std::max(0.0, n.qq - n.sq * n.sq / n.ss);
   // What the columns say of their own scatter counts, with a few of prior knowledge.
-  constexpr double kPrior = 5.0;
+  constexpr double kPrior = 10.0;
   line.covariance *=
       (line.cost + kPrior * scale_) / (static_cast<double>(last - first) - 2.0 + kPrior);
   return line;
