@@ -36,22 +36,29 @@ module angle_votes_shared #(
   localparam int ENTRY = 4 + ADDRESS_WIDTH + 2 * TRIG;
 
   // {admitted directions, first address, sin, cos} of each slot.
-  logic [(1<<SLOT_WIDTH)*ENTRY-1:0] table_all;
-  logic [(1<<SLOT_WIDTH)*2-1:0] allow_all;
-  for (genvar s = 0; s < (1 << SLOT_WIDTH); s++) begin : g_slot
-    if (s < SLOTS && FIRST + s < ANGLES) begin : g_used
+  logic [SLOTS*ENTRY-1:0] table_all;
+  for (genvar s = 0; s < SLOTS; s++) begin : g_slot
+    if (FIRST + s < ANGLES) begin : g_used
       localparam int ANGLE = 32'(ANGLE_SET[(FIRST+s)*8 +: 8]);
       assign table_all[s*ENTRY +: ENTRY] = {
         accelerator_pkg::ADMIT_TABLE[ANGLE*4 +: 4], ADDRESS_WIDTH'(s * BINS),
         accelerator_pkg::SIN_TABLE[ANGLE*TRIG +: TRIG], accelerator_pkg::COS_TABLE[ANGLE*TRIG +: TRIG]};
-      assign allow_all[s*2 +: 2] = allow_i[s*2 +: 2];
     end else begin : g_unused
       assign table_all[s*ENTRY +: ENTRY] = '0;
-      assign allow_all[s*2 +: 2] = '0;
     end
   end
 
-  logic [ENTRY-1:0] entry_q;
+  // Picked by comparison: an index times ENTRY would become a shifter as wide as the table.
+  logic [ENTRY-1:0] entry, entry_q;
+  logic [1:0] allow;
+  always_comb begin
+    entry = '0;
+    allow = '0;
+    for (int s = 0; s < SLOTS; s++) begin
+      entry = entry | ({ENTRY{slot_i == SLOT_WIDTH'(s)}} & table_all[s*ENTRY +: ENTRY]);
+      allow = allow | ({2{slot_i == SLOT_WIDTH'(s)}} & allow_i[s*2 +: 2]);
+    end
+  end
   logic [3:0] admitted;
   logic [ADDRESS_WIDTH-1:0] base, base_q, base_d1_q, address_q;
   logic signed [TRIG-1:0] sine, cosine;
@@ -67,8 +74,8 @@ module angle_votes_shared #(
   logic [RHO_WIDTH-1:0] rho_q;
   /* verilator lint_on UNUSEDSIGNAL */
   always_ff @(posedge clk_i) begin
-    entry_q <= table_all[slot_i*ENTRY +: ENTRY];
-    allowed_q <= allow_all[slot_i*2+1] | (allow_all[slot_i*2] & row_counts_i);
+    entry_q <= entry;
+    allowed_q <= allow[1] | (allow[0] & row_counts_i);
     direction_q <= direction_i;
     {x_q, y_q} <= {x_i, y_i};
     {bank_q, bank_d1_q, bank_d2_q, vote_bank_q} <= {bank_i, bank_q, bank_d1_q, bank_d2_q};

@@ -40,16 +40,17 @@ module raster_scan #(
     .pixels_i(column), .valid_o(window_valid), .position_o(window_position), .window_o(window)
   );
 
-  // What is known of each angle: theta + 90, whether the set goes on before and behind it.
-  logic [256*10-1:0] known;
+  // What is known of each angle: theta + 90, whether the set goes on before and behind it; 16 bits
+  // apart, so that the index needs no multiplication.
+  logic [256*16-1:0] known;
   for (genvar a = 0; a < 256; a++) begin : g_angle
     if (a < ANGLES) begin : g_used
       localparam int THETA = 32'(ANGLE_SET[a*8 +: 8]);
       localparam bit FORMER = a > 0 && THETA - 32'(ANGLE_SET[((a+ANGLES-1)%ANGLES)*8 +: 8]) <= 2;
       localparam bit LATER = a + 1 < ANGLES && 32'(ANGLE_SET[((a+1)%ANGLES)*8 +: 8]) - THETA <= 2;
-      assign known[a*10 +: 10] = {LATER, FORMER, 8'(THETA)};
+      assign known[a*16 +: 16] = {6'd0, LATER, FORMER, 8'(THETA)};
     end else begin : g_unused
-      assign known[a*10 +: 10] = '0;
+      assign known[a*16 +: 16] = '0;
     end
   end
   logic [7:0] angle_q;
@@ -59,7 +60,7 @@ module raster_scan #(
   assign theta = $signed(here_q[7:0] - 8'd90);
   assign rho = window_position.first_word ? 12'(-REACH) : rho_q;
   always_ff @(posedge clk_i) begin
-    here_q <= known[angle_q*10 +: 10];
+    here_q <= known[angle_q*16 +: 10];
     if (rst_i) angle_q <= '0;
     else if (window_valid && window_position.active && window_position.last_word)
       angle_q <= window_position.last_row ? '0 : angle_q + 1'b1;
