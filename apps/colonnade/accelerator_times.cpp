@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <ctime>
-#include <functional>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -20,15 +19,10 @@ namespace {
 
 constexpr int kRepetitions = 15;
 
-/// Of processor time, which other programs disturb less than the clock on the wall.
 double medianMilliseconds(const std::function<void()>& work) {
   std::vector<double> times;
-  for (int i = 0; i <= kRepetitions; ++i) {
-    const std::clock_t start = std::clock();
-    work();
-    const std::clock_t end = std::clock();
-    if (i > 0) times.push_back(1000.0 * static_cast<double>(end - start) / CLOCKS_PER_SEC);
-  }
+  work();
+  for (int i = 0; i < kRepetitions; ++i) times.push_back(processorMilliseconds(work));
   return quantile(times, 0.5);
 }
 
@@ -106,20 +100,30 @@ cv::Mat drawnCorridor() {
   return image;
 }
 
+double processorMilliseconds(const std::function<void()>& work) {
+  const std::clock_t start = std::clock();
+  work();
+  return 1000.0 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+}
+
+void BareOpenCv::canny(const cv::Mat& gray) {
+  const EdgeOptions options;
+  cv::GaussianBlur(gray, smooth_, {}, options.smoothing_sigma_px, 0.0, cv::BORDER_REPLICATE);
+  cv::Canny(smooth_, edges_, options.canny_low, options.canny_high, 3, false);
+}
+
+void BareOpenCv::hough() {
+  const int votes = std::max(1, edges_.rows * EdgeOptions{}.vertical_votes_percent / 100);
+  cv::HoughLines(edges_, lines_, 1.0, CV_PI / 180.0, votes);
+}
+
 SoftwareTimes softwareTimes(const cv::Mat& gray) {
   SoftwareTimes times;
   times.size = gray.size();
+  BareOpenCv bare;
+  times.opencv_canny_ms = medianMilliseconds([&] { bare.canny(gray); });
+  times.opencv_hough_ms = medianMilliseconds([&] { bare.hough(); });
   const EdgeOptions options;
-  cv::Mat smooth;
-  cv::Mat edges;
-  times.opencv_canny_ms = medianMilliseconds([&] {
-    cv::GaussianBlur(gray, smooth, {}, options.smoothing_sigma_px, 0.0, cv::BORDER_REPLICATE);
-    cv::Canny(smooth, edges, options.canny_low, options.canny_high, 3, false);
-  });
-  const int votes = std::max(1, gray.rows * options.vertical_votes_percent / 100);
-  std::vector<cv::Vec2f> lines;
-  times.opencv_hough_ms =
-      medianMilliseconds([&] { cv::HoughLines(edges, lines, 1.0, CV_PI / 180.0, votes); });
   const auto reference = makeEdgeLineBackend("opencv", options);
   times.opencv_ms = medianMilliseconds([&] { reference->extract(gray); });
   const auto fixed = makeEdgeLineBackend("fixed", options);

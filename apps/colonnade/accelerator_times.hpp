@@ -3,12 +3,30 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
 #include "colonnade/accelerator/model_transport.hpp"
 
 namespace colonnade {
+
+/// Of processor time of this process, which other programs disturb less than the clock on the wall.
+double processorMilliseconds(const std::function<void()>& work);
+
+/// What `fixed` is measured against: OpenCV's own Canny and Hough, as the `opencv` backend calls them.
+class BareOpenCv {
+ public:
+  /// Gaussian and Canny.
+  void canny(const cv::Mat& gray);
+  /// HoughLines over 180 angles on the edges of the last canny().
+  void hough();
+
+ private:
+  cv::Mat smooth_;
+  cv::Mat edges_;
+  std::vector<cv::Vec2f> lines_;
+};
 
 /// Processor time of one thread, medians.
 struct SoftwareTimes {

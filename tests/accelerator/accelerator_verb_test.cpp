@@ -19,7 +19,7 @@ TEST_F(AcceleratorVerb, ReportsEveryFigureAsJson) {
     for (const char* side : {"thesis", "ours"})
       EXPECT_TRUE(json[figure].contains(side)) << figure << " " << side;
   }
-  for (const char* figure : {"figure_53", "figure_67", "whole"}) {
+  for (const char* figure : {"figure_53", "figure_61", "figure_67", "whole"}) {
     for (const char* family : {"xc6s", "xc7"}) EXPECT_TRUE(json[figure].contains(family)) << figure;
   }
   // What was asked of the thesis' configuration, on the RTL as committed.
@@ -54,6 +54,7 @@ TEST_F(AcceleratorVerb, RunsALogAndSaysWhatABoardWouldTake) {
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("3 of 320x240, edges and lines of each equal to fixed"));
   EXPECT_THAT(outcome.out, HasSubstr("at 50 MHz"));
+  EXPECT_THAT(outcome.out, HasSubstr("times fixed on average"));
 }
 
 TEST_F(AcceleratorVerb, RefusesWhatNoModelTakes) {

@@ -15,12 +15,13 @@ constexpr int kCoarseStep_deg = 2;
 
 /// Sobel sums 4 differences where the directional operators sum 3, the binomial Gaussian (sigma 1
 /// px) leaves less of a step than OpenCV's default of 0.8 px, and hysteresis reaches less far
-/// upwards: at this share detectors score as with the reference (precision and recall of pillars
-/// and floor edges in a simulated corridor).
-constexpr double kShareOfSobel = 0.46;
+/// upwards, so that a chain needs a lower threshold to start and a higher one to end: with these
+/// shares detectors score as with the reference (modules/edges/README.md).
+constexpr double kLowShare = 0.55;
+constexpr double kHighShare = 0.37;
 
-int threshold(double sobel_l1) {
-  return static_cast<int>(std::clamp(std::lround(kShareOfSobel * sobel_l1), 0L, 1023L));
+int threshold(double sobel_l1, double share) {
+  return static_cast<int>(std::clamp(std::lround(share * sobel_l1), 0L, 1023L));
 }
 
 /// Only pixels whose gradient fits the angle vote, so that lines count fewer chance votes than in
@@ -39,8 +40,8 @@ FixedParameters runParameters(const FixedShape& shape, const EdgeOptions& option
                               const EdgeView& view, int width_px, int height_px) {
   FixedParameters parameters;
   const auto [low, high] = std::minmax(options.canny_low, options.canny_high);
-  parameters.low = threshold(low);
-  parameters.high = threshold(high);
+  parameters.low = threshold(low, kLowShare);
+  parameters.high = threshold(high, kHighShare);
   parameters.vertical_votes = votes(options.vertical_votes_percent, height_px);
   parameters.inclined_votes = votes(options.inclined_votes_percent, height_px);
   const LineRanges ranges = predictLineRanges(view, width_px, height_px, options);

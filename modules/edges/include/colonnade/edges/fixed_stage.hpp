@@ -13,7 +13,7 @@ namespace colonnade {
 struct FixedShape {
   /// Ascending whole degrees in [-90, 89]; neighbours 1 or 2 degrees apart compete for a line.
   std::vector<int> angles_deg;
-  int hysteresis_passes = 2;  ///< each delays the stream by one line; 0: the high threshold alone
+  int hysteresis_passes = 4;  ///< each delays the stream by one line; 0: the high threshold alone
 };
 
 /// What a frame is processed with: the run-time registers (hdl/REGISTERS.md).
