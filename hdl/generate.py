@@ -96,6 +96,11 @@ def system_verilog(source):
         lines.append(f"  localparam int LINE_{name.upper()}_WIDTH = {width};")
         low += width
     assert low == 32
+    fields = source["line"]["fields"]
+    lines += ["", "  /// A line word of its fields.",
+              "  function automatic logic [31:0] line_word(" + ", ".join(
+                  f"input logic {'' if width == 1 else f'[{width - 1}:0] '}{name}_i" for name, width in fields) + ");",
+              "    line_word = {" + ", ".join(f"{name}_i" for name, _ in fields) + "};", "  endfunction"]
     return "\n".join(lines + ["endpackage", ""])
 
 
@@ -147,7 +152,8 @@ def documentation(source):
         offset = f"0x{register['offset']:02X}"
         if count > 1:
             offset += f" .. 0x{register['offset'] + 4 * (count - 1):02X}"
-        lines.append(f"| {offset} | {register['name']} | {register['access']} | {register['meaning']} |")
+        meaning = register["meaning"].replace("|", "\\|")
+        lines.append(f"| {offset} | {register['name']} | {register['access']} | {meaning} |")
     fields = ", ".join(f"{name} ({width})" for name, width in source["line"]["fields"])
     lines += ["", f"A line word, from bit 31 down: {fields}; theta (degrees, -90 to 89) and rho (pixels from the centre) are signed."]
     return "\n".join(lines + [""])

@@ -121,7 +121,11 @@ def plan():
 def main():
     entries, rtl = plan(), fingerprint()
     measured = json.loads(TARGET.read_text()) if TARGET.exists() else {"entries": {}}
-    stale = [name for name in entries if measured["entries"].get(name, {}).get("rtl_sha256") != rtl]
+
+    def is_stale(name):
+        entry = measured["entries"].get(name, {})
+        return entry.get("rtl_sha256") != rtl or entry.get("parameters") != WHAT[entries[name][1]][1]
+    stale = [name for name in entries if is_stale(name)]
     if sys.argv[1:] == ["--check"]:
         for name in stale:
             print(f"measured.json: {name} is not of this RTL; run hdl/measure.py")
@@ -133,7 +137,8 @@ def main():
              "nextpnr-ice40": run(["nextpnr-ice40", "--version"]).split("Version ")[1].strip().rstrip(")")}
     for name in sys.argv[1:] or stale:
         kind, design, how = entries[name]
-        result = {"kind": kind, "design": design, "what": WHAT[design][2], "rtl_sha256": rtl, "tools": tools} | how()
+        result = {"kind": kind, "design": design, "what": WHAT[design][2], "parameters": WHAT[design][1], "rtl_sha256": rtl,
+                  "tools": tools} | how()
         print(name, {key: value for key, value in result.items() if key not in ("tools", "rtl_sha256")}, flush=True)
         measured["entries"][name] = result
         measured["entries"] = {key: measured["entries"][key] for key in entries if key in measured["entries"]}

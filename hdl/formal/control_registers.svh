@@ -22,8 +22,7 @@
   end
   logic f_b_waits_q = 1'b0, f_r_waits_q = 1'b0, f_written_q = 1'b0, f_read_q = 1'b0;
   logic [31:0] f_rdata_q, f_thresholds_q = '0, f_read_thresholds_q;
-  logic [3:0] f_faults_q = '0;
-  logic f_late_q = 1'b0;
+  logic [4:0] f_status_q = '0;
   always_ff @(posedge clk_i) begin
     f_b_waits_q <= s_axil_bvalid && !s_axil_bready && !rst_i;
     f_r_waits_q <= s_axil_rvalid && !s_axil_rready && !rst_i;
@@ -31,8 +30,11 @@
     f_written_q <= s_axil_awvalid && s_axil_awready && !rst_i;
     f_read_q <= s_axil_arvalid && s_axil_arready && !rst_i;
     f_read_thresholds_q <= f_thresholds_q;
-    f_faults_q <= rst_i ? '0 : faults_i;
-    f_late_q <= !rst_i && s_axil_awready && s_axil_awaddr >= 8'h30 && busy_i;
+    // What has been seen and not been cleared since; a write counts for the next frame from the clock
+    // in which this one begins.
+    if (rst_i) f_status_q <= '0;
+    else f_status_q <= (f_status_q & ~(s_axil_awready && s_axil_awaddr == 8'h20 && s_axil_wstrb[0] ? s_axil_wdata[4:0] : 5'd0)) |
+                       {s_axil_awready && s_axil_awaddr >= 8'h30 && (busy_i || begin_i), faults_i};
     if (rst_i) f_thresholds_q <= '0;
     else if (s_axil_awready && s_axil_awaddr == 8'h30)
       for (int i = 0; i < 32; i++)
@@ -46,6 +48,5 @@
     if (f_r_waits_q) assert (s_axil_rdata == f_rdata_q);
     assert (thresholds == f_thresholds_q);
     if (f_read_q && f_araddr_q == 8'h30) assert (s_axil_rdata == f_read_thresholds_q);
-    assert ((f_faults_q & ~status_q[3:0]) == '0);
-    if (f_late_q) assert (status_q[4]);
+    assert (status_q == f_status_q);
   end

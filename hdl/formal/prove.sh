@@ -57,6 +57,7 @@ prove line_packet "" 4 's/if (state_q != Clocks) clocks_q/clocks_q/' \
   "offers held, every line counted, TLAST on the last word alone"
 prove control_registers "" 3 's/s_axil_rvalid & ~s_axil_rready/1'"'"'b0/' \
   "answers held and one for each request, registers read back, faults kept"
+prove control_registers "" 3 's/status_q <= status_q | {/status_q <= {/' "status bits kept until they are cleared"
 prove line_taps "-set WORDS 20" 3 's/position_i.last_word ? .0 : address_q/position_i.first_row ? '"'0"' : address_q/' \
   "addresses inside the memory, never written where read"
 for angle in 0 43 88 135; do

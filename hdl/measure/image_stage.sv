@@ -26,10 +26,10 @@ module image_stage #(
   input  wire         line_ready_i,
   output logic [31:0] line_o
 );
-  localparam int BITS = 270;  // of stream_pkg::parameters_t
+  localparam int BITS = 2 * 270;  // of stream_pkg::parameters_t, for either bank
   logic [BITS-1:0] shift_q;
-  stream_pkg::parameters_t parameters;
-  assign parameters = shift_q;
+  stream_pkg::parameters_t parameters0, parameters1;
+  assign {parameters1, parameters0} = shift_q;
   always_ff @(posedge clk_i) if (shift_i) shift_q <= {shift_q[BITS-2:0], parameter_i};
 
   /* verilator lint_off UNUSEDSIGNAL */  // what buses would need
@@ -40,14 +40,15 @@ module image_stage #(
   logic [7:0] pixel_q;
   always_ff @(posedge clk_i) {valid_q, position_q, pixel_q} <= {valid_i, position_i, pixel_i};
   canny #(.PPC(1), .WORDS(WIDTH), .PASSES(PASSES)) u_canny (
-    .clk_i(clk_i), .rst_i(rst_i), .low_i({2{parameters.low}}), .high_i({2{parameters.high}}),
+    .clk_i(clk_i), .rst_i(rst_i), .low_i({parameters1.low, parameters0.low}),
+    .high_i({parameters1.high, parameters0.high}),
     .valid_i(valid_q), .position_i(position_q), .pixels_i(pixel_q), .valid_o(edge_valid),
     .position_o(edge_position), .edges_o(edges_o)
   );
   hough_parallel #(
     .WIDTH(WIDTH), .HEIGHT(HEIGHT), .PPC(1), .ANGLES(ANGLES), .ANGLE_SET(ANGLE_SET), .REACH(REACH)
   ) u_hough (
-    .clk_i(clk_i), .rst_i(rst_i), .parameters0_i(parameters), .parameters1_i(parameters),
+    .clk_i(clk_i), .rst_i(rst_i), .parameters0_i(parameters0), .parameters1_i(parameters1),
     .valid_i(edge_valid), .position_i(edge_position), .edges_i(edges_o), .cleared_o(cleared_o),
     .room_o(room), .packet_idle_i(packet_idle_i), .scan_bank_o(scan_bank), .begin_o(begins),
     .end_o(ends), .line_valid_o(line_valid_o), .line_ready_i(line_ready_i), .line_o(line_o)

@@ -8,7 +8,7 @@ module accelerator #(
   parameter int WIDTH = 120,     // pixels, a multiple of PPC, at least 16 PPC, at most 1023
   parameter int HEIGHT = 120,    // at least 16, at most 1023
   parameter int PPC = 1,         // pixels per clock: 1, 2 or 4
-  parameter int PASSES = 2,      // of hysteresis; 0: one threshold
+  parameter int PASSES = 2,      // of hysteresis, at most 6; 0: one threshold
   parameter int SET = 0,         // angles: 0 thesis, 1 run, 2 full (accelerator.toml)
   parameter int BANKS = 0        // 0: memories for every angle; else that many, shared
 ) (
@@ -47,6 +47,10 @@ module accelerator #(
   input  wire               s_axil_rready,
   output logic              irq
 );
+  // Queues have room for what is on its way to them with up to six passes.
+  if ((PPC != 1 && PPC != 2 && PPC != 4) || WIDTH % PPC != 0 || WIDTH < 16 * PPC || WIDTH > 1023 ||
+      HEIGHT < 16 || HEIGHT > 1023 || PASSES < 0 || PASSES > 6 || SET < 0 || SET > 2 || BANKS < 0)
+    $error("accelerator: a parameter is out of its range");
   localparam int WORDS = WIDTH / PPC;
   localparam int ANGLES = SET == 0 ? accelerator_pkg::THESIS_ANGLES
                         : SET == 1 ? accelerator_pkg::RUN_ANGLES : accelerator_pkg::FULL_ANGLES;

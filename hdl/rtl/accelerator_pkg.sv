@@ -60,4 +60,9 @@ package accelerator_pkg;
   localparam int LINE_THETA_WIDTH = 8;
   localparam int LINE_CLASS_LSB = 31;
   localparam int LINE_CLASS_WIDTH = 1;
+
+  /// A line word of its fields.
+  function automatic logic [31:0] line_word(input logic class_i, input logic [7:0] theta_i, input logic [11:0] rho_i, input logic [10:0] votes_i);
+    line_word = {class_i, theta_i, rho_i, votes_i};
+  endfunction
 endpackage

@@ -59,6 +59,8 @@ module control_registers #(
   assign admit_o = auto_q | start_q;
   assign irq_o = global_q && (pending_q & enable_q) != '0;
   assign parameter_write = s_axil_awready && s_axil_awaddr >= accelerator_pkg::REG_THRESHOLDS;
+  logic late_write;  // counts for the next frame only
+  assign late_write = parameter_write && (busy_i || begin_i);
 
   logic [31:0] thresholds, votes, verticals, control;
   /* verilator lint_off UNUSEDSIGNAL */  // the bits between the fields
@@ -93,8 +95,8 @@ module control_registers #(
       end
       if (done_i) done_q <= 1'b1;
       else if (s_axil_arready && s_axil_araddr == accelerator_pkg::REG_CONTROL) done_q <= 1'b0;
-      pending_q <= pending_q | {faults_i != '0, done_i};
-      status_q <= status_q | {parameter_write & busy_i, faults_i};
+      pending_q <= pending_q | {faults_i != '0 || late_write, done_i};
+      status_q <= status_q | {late_write, faults_i};
 
       if (s_axil_awready) begin
         unique case (s_axil_awaddr)

@@ -172,11 +172,12 @@ module peak_scan #(
     if (advance_o) hit_rho_q <= 12'(step_q) - 12'(REACH + 4);
   end
   always_comb begin
-    line_o = {9'd0, hit_rho_q, 11'd0};
+    line_o = accelerator_pkg::line_word(1'b0, 8'd0, hit_rho_q, 11'd0);
     for (int a = 0; a < ANGLES; a++)
       if (lowest[a])
-        line_o = line_o | {~vertical_i[a], 8'(ANGLE_SET[a*8 +: 8] - 8'd90), 12'd0,
-                           11'(window[(a*4+3)*VOTE_WIDTH +: VOTE_WIDTH])};
+        line_o = line_o | accelerator_pkg::line_word(
+            ~vertical_i[a], 8'(ANGLE_SET[a*8 +: 8] - 8'd90), 12'd0,
+            11'(window[(a*4+3)*VOTE_WIDTH +: VOTE_WIDTH]));
   end
 endmodule
 `default_nettype wire

@@ -101,7 +101,7 @@ module raster_scan #(
   assign hit = valid_q && enough_q && !beaten_q && !beaten_by_former_q && !beaten_by_later_q;
   stream_fifo #(.WIDTH(32), .DEPTH(32), .MARGIN(16)) u_lines (
     .clk_i(clk_i), .rst_i(rst_i), .room_o(room_o), .valid_i(hit),
-    .data_i({inclined_q, theta_q, rho_d1_q, 11'(centre_q)}), .valid_o(line_valid_o),
+    .data_i(accelerator_pkg::line_word(inclined_q, theta_q, rho_d1_q, 11'(centre_q))), .valid_o(line_valid_o),
     .ready_i(line_ready_i), .data_o(line_o)
   );
 endmodule

@@ -47,7 +47,7 @@ module video_input #(
 
   logic starts, takes, fills, drops, blanks, interrupted;
   assign starts = state_q == Between && s_axis_tvalid && s_axis_tuser && admit_i && room_i;
-  assign interrupted = state_q == Frame && s_axis_tvalid && s_axis_tuser;
+  assign interrupted = state_q == Frame && s_axis_tvalid && s_axis_tuser && !(fill_line_q && last_row);
   assign fills = state_q == Frame && room_i && (fill_line_q || fill_frame_q);
   assign takes = state_q == Frame && room_i && !fill_line_q && !fill_frame_q && !skip_q &&
                  s_axis_tvalid && !s_axis_tuser;
