@@ -21,15 +21,13 @@ struct VideoWord {
 };
 
 /// The Verilated accelerator with a master on its video input, slaves on its outputs and an
-/// AXI4-Lite master, all of which may stall at random. Protocol: values offered stay until they are
+/// AXI4-Lite master, the streams of which may stall at random. Protocol: values offered stay until they are
 /// taken.
 template <class Model>
 class Simulation {
  public:
   explicit Simulation(std::uint32_t seed = 1) : model_(&context_, "accelerator"), random_(seed) {
-    model_.rst = 1;
-    for (int i = 0; i < 8; ++i) cycle();
-    model_.rst = 0;
+    reset();
   }
   ~Simulation() { model_.final(); }
 
@@ -46,6 +44,19 @@ class Simulation {
   std::vector<std::size_t> packet_ends;     ///< positions in `lines` behind each packet
   std::vector<std::uint64_t> frame_starts;  ///< clocks in which a start of frame was taken
   std::uint64_t clock = 0;
+
+  /// Pulls the reset, at any moment, and forgets all that is queued and received.
+  void reset() {
+    video.clear();
+    model_.rst = 1;
+    model_.s_axis_tvalid = model_.s_axil_awvalid = model_.s_axil_wvalid = model_.s_axil_arvalid = 0;
+    for (int i = 0; i < 8; ++i) cycle();
+    model_.rst = 0;
+    edges.clear();
+    lines.clear();
+    packet_ends.clear();
+    frame_starts.clear();
+  }
 
   void cycle() {
     offerVideo();

@@ -51,6 +51,7 @@ class Saboteur : public AcceleratorTransport {
     kCutFrame,
     kLongLines,
     kWrongSize,
+    kTallFrame,
     kWriteInMidFrame
   };
   explicit Saboteur(const cv::Size& size) : model_(makeModelTransport(size)) {}
@@ -63,7 +64,7 @@ class Saboteur : public AcceleratorTransport {
   void sendFrame(const cv::Mat& gray) override {
     if (done(Deed::kSwallowFrame)) return;
     if (done(Deed::kStall)) return model_->sendFrame(gray.rowRange(0, 100));
-    if (done(Deed::kLongLines) || done(Deed::kWrongSize)) return model_->sendFrame(bent_);
+    if (done(Deed::kLongLines) || done(Deed::kWrongSize) || done(Deed::kTallFrame)) return model_->sendFrame(bent_);
     if (done(Deed::kCutFrame)) {
       model_->sendFrame(gray.rowRange(0, 200));  // the start of the next one ends it
     }
@@ -165,6 +166,50 @@ TEST(Accelerator, NamesAHangAndWorksOnAfterIt) {
   EXPECT_TRUE(next.found.lines == FixedStage(runShape()).process(scene(2), parametersFor()).lines);
 }
 
+TEST(Accelerator, PollingAloneBringsResultsAndHangs) {
+  auto saboteur = std::make_unique<Saboteur>(kSize);
+  Saboteur& device = *saboteur;
+  Accelerator accelerator(std::move(saboteur), runShape());
+  const auto polled = [&] {
+    for (int i = 0; i < 5000; ++i) {
+      if (auto result = accelerator.poll()) return *result;
+    }
+    AcceleratorResult never;
+    never.detail = "never";
+    return never;
+  };
+  accelerator.configure(parametersFor());
+  accelerator.submit(scene(1));
+  const auto found = polled();
+  EXPECT_EQ(found.fault, AcceleratorFault::kNone) << found.detail;
+  EXPECT_TRUE(found.found.lines == FixedStage(runShape()).process(scene(1), parametersFor()).lines);
+  device.bend(Saboteur::Deed::kWrongSize, {300, 200});
+  accelerator.submit(scene(2));
+  const auto hang = polled();
+  EXPECT_EQ(hang.fault, AcceleratorFault::kHang);
+  EXPECT_THAT(hang.detail, HasSubstr("a line too short"));
+}
+
+TEST(Accelerator, DoesNotTakeTheSecondFrameForAFirstThatGotLost) {
+  auto saboteur = std::make_unique<Saboteur>(kSize);
+  Saboteur& device = *saboteur;
+  Accelerator accelerator(std::move(saboteur), runShape());
+  accelerator.configure(parametersFor());
+  device.deed = Saboteur::Deed::kSwallowFrame;
+  const auto first = accelerator.submit(scene(1));
+  const auto second = accelerator.submit(scene(2));
+  const auto wrong = accelerator.wait();
+  EXPECT_EQ(wrong.frame_id, first);
+  EXPECT_EQ(wrong.fault, AcceleratorFault::kBadPacket);
+  EXPECT_THAT(wrong.detail, HasSubstr("1 frames of 2"));
+  const auto lost = accelerator.wait();
+  EXPECT_EQ(lost.frame_id, second);
+  EXPECT_EQ(lost.fault, AcceleratorFault::kHang);
+  EXPECT_THAT(lost.detail, HasSubstr("lost"));
+  accelerator.submit(scene(3));
+  EXPECT_EQ(accelerator.wait().fault, AcceleratorFault::kNone);
+}
+
 TEST(RtlBackend, AnswersAsFixedWhateverTheDeviceDoes) {
   const auto fixed = makeEdgeLineBackend("fixed", {});
   const struct {
@@ -177,6 +222,7 @@ TEST(RtlBackend, AnswersAsFixedWhateverTheDeviceDoes) {
                {Saboteur::Deed::kStall, "hangs"},
                {Saboteur::Deed::kLongLines, "broken frame"},
                {Saboteur::Deed::kWrongSize, "hangs"},
+               {Saboteur::Deed::kTallFrame, "broken frame"},
                {Saboteur::Deed::kWriteInMidFrame, "written in mid-frame"}};
   for (const auto& c : cases) {
     SCOPED_TRACE(c.named);
@@ -184,8 +230,9 @@ TEST(RtlBackend, AnswersAsFixedWhateverTheDeviceDoes) {
     RtlBackend backend({}, [&](const cv::Size& size) {
       auto transport = std::make_unique<Saboteur>(size);
       device = transport.get();
-      const bool is_long = c.deed == Saboteur::Deed::kLongLines;
-      device->bend(c.deed, is_long ? cv::Size(330, 240) : cv::Size(300, 200));
+      device->bend(c.deed, c.deed == Saboteur::Deed::kLongLines   ? cv::Size(330, 240)
+                           : c.deed == Saboteur::Deed::kTallFrame ? cv::Size(320, 242)
+                                                                  : cv::Size(300, 200));
       return transport;
     });
     for (int i = 0; i < 2; ++i) {

@@ -312,10 +312,101 @@ TYPED_TEST(Rtl, MendsBrokenFramesAndSaysSo) {
   }
   expectFaults(8, "data without a start of frame");
 
-  this->send(this->randomImage(1));  // a register written in mid-frame counts for the next one
-  for (int i = 0; i < 200; ++i) simulation.cycle();
-  simulation.write(registers::kThresholds, 90U << 16 | 60U);
-  expectFaults(16, "register write in mid-frame");
+  this->send(this->randomImage(1));  // the last line lacks a word, and the next frame waits
+  simulation.video.pop_back();
+  simulation.video.back().end_of_line = true;
+  expectFaults(1, "short last line");
+}
+
+TYPED_TEST(Rtl, ARegisterWrittenInMidFrameCountsForTheNextFrame) {
+  const FixedParameters before{60, 90, 8, 8, -10, 10, 0, {}};
+  FixedParameters after = before;
+  after.low = 20;
+  after.high = 150;
+  this->configure(before);
+  auto& simulation = this->simulation;
+  for (const int clocks : {200, 2000}) {
+    const std::size_t frames = simulation.packet_ends.size();
+    const cv::Mat image = this->randomImage(4);
+    this->send(image);
+    while (simulation.frame_starts.size() == frames) simulation.cycle();
+    for (int i = 0; i < clocks / TypeParam::ppc && !simulation.video.empty(); ++i) simulation.cycle();
+    ASSERT_FALSE(simulation.video.empty());
+    simulation.write(registers::kThresholds, 150U << 16 | 20U);
+    this->send(image);
+    this->runUntilPackets(frames + 2);
+    if (this->HasFatalFailure()) return;
+    EXPECT_EQ(simulation.read(registers::kStatus), 16U);
+    simulation.write(registers::kStatus, 16);
+    this->expectExact(frames, image, before);
+    this->expectExact(frames + 1, image, after);
+    this->configure(before);
+  }
+}
+
+/// A write that lands in the very clock a frame begins is either in time for it or reported.
+TYPED_TEST(Rtl, AWriteAtAFramesBeginningIsInTimeOrReported) {
+  const FixedParameters before{60, 90, 8, 8, -10, 10, 0, {}};
+  FixedParameters after = before;
+  after.low = 20;
+  after.high = 150;
+  auto& simulation = this->simulation;
+  const cv::Mat image = this->randomImage(4);
+  this->configure(before);
+  this->send(image);  // the memories are clear once it has gone through
+  this->runUntilPackets(1);
+  int late = 0;
+  for (int lead = 0; lead < 6; ++lead) {
+    this->configure(before);
+    const std::size_t frame = simulation.packet_ends.size();
+    this->send(image);
+    for (int i = 0; i < lead; ++i) simulation.cycle();
+    simulation.write(registers::kThresholds, 150U << 16 | 20U);
+    this->runUntilPackets(frame + 1);
+    if (this->HasFatalFailure()) return;
+    const bool reported = simulation.read(registers::kStatus) == 16;
+    simulation.write(registers::kStatus, 31);
+    this->expectExact(frame, image, reported ? before : after);
+    late += reported;
+  }
+  EXPECT_GT(late, 0);
+}
+
+TYPED_TEST(Rtl, WorksOnAfterAResetAtAnyMoment) {
+  std::mt19937 random(5);
+  const auto p = FixedParameters{60, 90, 8, 8, -10, 10, 0, {}};
+  auto& simulation = this->simulation;
+  for (int i = 0; i < 12; ++i) {
+    this->configure(this->randomParameters(static_cast<unsigned>(i)));
+    this->send(this->randomImage(3));
+    this->send(this->randomImage(6));
+    simulation.stalls = {static_cast<int>(random() % 300), static_cast<int>(random() % 300), 300};
+    const int limit = 4 * TypeParam::size().area() / TypeParam::ppc;
+    for (int k = static_cast<int>(random() % static_cast<unsigned>(limit)); k > 0; --k) {
+      simulation.cycle();
+    }
+    simulation.reset();
+    simulation.write(registers::kControl, 0x80);
+    this->configure(p);
+    this->send(this->randomImage(4));
+    this->runUntilPackets(1);
+    if (this->HasFatalFailure()) return;
+    this->expectExact(0, this->randomImage(4), p);
+    EXPECT_EQ(this->packet(0).frame_id, 0U);
+    EXPECT_EQ(this->packet(0).faults, 0U);
+    if (this->HasFailure()) return;
+  }
+}
+
+TYPED_TEST(Rtl, FrameIdsWrap) {
+  this->configure({60, 90, 8, 8, -10, 10, 0, {}});
+  this->simulation.write(registers::kFrameId, 65535);
+  this->send(this->randomImage(1));
+  this->send(this->randomImage(4));
+  this->runUntilPackets(2);
+  if (this->HasFatalFailure()) return;
+  EXPECT_EQ(this->packet(0).frame_id, 65535U);
+  EXPECT_EQ(this->packet(1).frame_id, 0U);
 }
 
 TYPED_TEST(Rtl, KeepsToItsClocks) {

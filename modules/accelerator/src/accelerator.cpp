@@ -13,7 +13,8 @@ namespace {
 
 constexpr int kStep = 1024;  // clocks between two looks
 constexpr std::uint32_t kAutoRestart = 0x80;
-constexpr std::uint32_t kWrittenInMidFrame = 0x10;  // of STATUS
+constexpr std::uint32_t kDataBeforeFrame = 0x8;  // of STATUS
+constexpr std::uint32_t kWrittenInMidFrame = 0x10;
 constexpr std::size_t kFrameWords = 3;  // of a packet, beside the lines: id, count, clocks
 
 std::uint32_t halves(int high, int low) {
@@ -46,6 +47,7 @@ std::string faultNames(std::uint32_t faults) {
 
 Accelerator::Accelerator(std::unique_ptr<AcceleratorTransport> transport, FixedShape shape)
     : transport_(std::move(transport)), shape_(std::move(shape)) {
+  transport_->reset();  // of a process that ended in mid-frame something may be left
   const std::uint32_t identity = transport_->readRegister(registers::kId);
   const std::uint32_t version = transport_->readRegister(registers::kVersion);
   if (identity != registers::kIdentity || version >> 16 != registers::kInterface >> 16) {
@@ -75,13 +77,14 @@ void Accelerator::start() {
   transport_->writeRegister(registers::kFrameId, next_id_);
   transport_->writeRegister(registers::kControl, kAutoRestart);
   configured_ = false;
+  sent_ = 0;
 }
 
-void Accelerator::recover() {
+void Accelerator::reset() {
   transport_->reset();
   edges_.reset();
   packet_.reset();
-  lost_ = on_the_way_;
+  lost_ += on_the_way_;
   on_the_way_ = 0;
   start();
 }
@@ -126,41 +129,80 @@ std::uint16_t Accelerator::submit(const cv::Mat& gray) {
     configured_ = true;
   }
   transport_->sendFrame(gray);
-  ++on_the_way_;
+  if (on_the_way_++ == 0) waited_ = 0;
+  ++sent_;
   return next_id_++;
 }
 
-std::optional<AcceleratorResult> Accelerator::poll() {
-  if (lost_ > 0) return hang("lost with the frame before it");
-  if (on_the_way_ == 0) return std::nullopt;
+std::uint32_t Accelerator::takeStatus() {
+  const std::uint32_t status = transport_->readRegister(registers::kStatus);
+  if (status != 0) transport_->writeRegister(registers::kStatus, status);
+  return status;
+}
+
+std::optional<AcceleratorResult> Accelerator::take() {
   if (!edges_) edges_ = transport_->takeEdges();
   if (!packet_) packet_ = transport_->takePacket();
   if (!edges_ || !packet_) return std::nullopt;
   AcceleratorResult result = interpret(*edges_, *packet_);
-  edges_.reset();
-  packet_.reset();
-  --on_the_way_;
-  ++oldest_id_;
-  // submit() never does that; another master on the bus may.
-  const std::uint32_t status = transport_->readRegister(registers::kStatus);
-  if (status != 0) transport_->writeRegister(registers::kStatus, status);
-  if (result.fault == AcceleratorFault::kNone && (status & kWrittenInMidFrame) != 0) {
-    result.fault = AcceleratorFault::kLateWrite;
-    result.detail = "a parameter was written in mid-frame";
+  const std::uint32_t status = takeStatus();
+  const auto fault = [&](AcceleratorFault what, const std::string& detail) {
+    if (result.fault != AcceleratorFault::kNone) return;
+    result.fault = what;
+    result.detail = detail;
+  };
+  // The device counts frames itself: if it has taken fewer than were sent, this is not the oldest's.
+  const auto taken =
+      static_cast<std::uint16_t>(transport_->readRegister(registers::kFrames) >> 16);
+  if (transport_->allSent() && taken != sent_) {
+    fault(AcceleratorFault::kBadPacket, "the device has taken " + std::to_string(taken) +
+                                            " frames of " + std::to_string(sent_));
   }
-  if (result.fault != AcceleratorFault::kNone) recover();
+  if ((status & kDataBeforeFrame) != 0) {
+    fault(AcceleratorFault::kBadFrame, faultNames(kDataBeforeFrame));
+  }
+  // submit() never does that; another master on the bus may.
+  if ((status & kWrittenInMidFrame) != 0) {
+    fault(AcceleratorFault::kLateWrite, "a parameter was written in mid-frame");
+  }
   return result;
+}
+
+std::optional<AcceleratorResult> Accelerator::poll() {
+  if (lost_ > 0) {
+    --lost_;
+    return hang("lost with the frame before it");
+  }
+  if (on_the_way_ == 0) return std::nullopt;
+  if (auto result = take()) {
+    edges_.reset();
+    packet_.reset();
+    --on_the_way_;
+    ++oldest_id_;
+    waited_ = 0;
+    if (result->fault != AcceleratorFault::kNone) reset();
+    return result;
+  }
+  if (waited_ <= patience_) {
+    transport_->advance(kStep);
+    waited_ += kStep;
+    return std::nullopt;
+  }
+  std::string what = edges_ ? "no line packet" : packet_ ? "no whole edge map" : "nothing";
+  what += " came out in " + std::to_string(patience_) + " clocks";
+  const std::string faults = faultNames(takeStatus());
+  if (!faults.empty()) what += "; " + faults + " came in";
+  --on_the_way_;
+  waited_ = 0;
+  reset();
+  return hang(what);
 }
 
 AcceleratorResult Accelerator::wait() {
   if (on_the_way_ == 0 && lost_ == 0) throw Error("accelerator: no frame is on its way");
-  for (int waited = 0; waited <= patience_; waited += kStep) {
+  for (;;) {
     if (auto result = poll()) return std::move(*result);
-    transport_->advance(kStep);
   }
-  const std::string missing = edges_ ? "no line packet" : packet_ ? "no whole edge map" : "nothing";
-  recover();
-  return hang(missing + " came out in " + std::to_string(patience_) + " clocks");
 }
 
 AcceleratorResult Accelerator::hang(const std::string& where) {
@@ -168,7 +210,6 @@ AcceleratorResult Accelerator::hang(const std::string& where) {
   result.frame_id = oldest_id_++;
   result.fault = AcceleratorFault::kHang;
   result.detail = where;
-  --lost_;
   return result;
 }
 
@@ -188,6 +229,9 @@ AcceleratorResult Accelerator::interpret(const std::vector<std::uint8_t>& edges,
   }
   const std::uint32_t counted = packet[packet.size() - 2];
   if ((counted & 0xffff) != packet.size() - kFrameWords) return bad("a wrong number of lines");
+  if (edges.size() != static_cast<std::size_t>(size_.area())) {
+    return bad("an edge map of " + std::to_string(edges.size()) + " bytes");
+  }
   result.clocks = packet.back();
   if (counted >> 16 != 0) {
     result.fault = AcceleratorFault::kBadFrame;

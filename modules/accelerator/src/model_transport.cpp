@@ -17,9 +17,9 @@ template <class Model>
 class ModelTransport : public AcceleratorTransport {
  public:
   explicit ModelTransport(const AcceleratorModel& model)
-      : size_(model.size), pixels_per_clock_(model.pixels_per_clock) {
-    reset();
-  }
+      : size_(model.size),
+        pixels_per_clock_(model.pixels_per_clock),
+        simulation_(std::make_unique<hdl::Simulation<Model>>()) {}
 
   std::uint32_t readRegister(std::uint32_t offset) override { return simulation_->read(offset); }
   void writeRegister(std::uint32_t offset, std::uint32_t value) override {
@@ -65,7 +65,7 @@ class ModelTransport : public AcceleratorTransport {
     for (std::size_t& end : ends) end -= size;
     return packet;
   }
-  void reset() override { simulation_ = std::make_unique<hdl::Simulation<Model>>(); }
+  void reset() override { simulation_->reset(); }
 
  private:
   cv::Size size_;

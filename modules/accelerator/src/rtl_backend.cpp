@@ -63,9 +63,14 @@ EdgeLines RtlBackend::process(const cv::Mat& gray, const EdgeView& view) {
     const std::string difference = differenceOf(result, expected);
     if (difference.empty()) {
       device.clocks.push_back(result.clocks);
-    } else if (faults_[difference].frames++ == 0) {
-      faults_[difference].first =
-          "frame " + std::to_string(frame_) + (result.detail.empty() ? "" : ": " + result.detail);
+    } else {
+      // Streams that have slipped would make every later frame differ.
+      if (result.fault == AcceleratorFault::kNone) device.accelerator->reset();
+      Fault& fault = faults_[difference];
+      if (fault.frames++ == 0) {
+        fault.first =
+            "frame " + std::to_string(frame_) + (result.detail.empty() ? "" : ": " + result.detail);
+      }
     }
   }
   ++frame_;

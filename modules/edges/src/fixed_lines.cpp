@@ -40,8 +40,8 @@ FixedParameters runParameters(const FixedShape& shape, const EdgeOptions& option
                               const EdgeView& view, int width_px, int height_px) {
   FixedParameters parameters;
   const auto [low, high] = std::minmax(options.canny_low, options.canny_high);
-  parameters.low = threshold(low, kLowShare);
   parameters.high = threshold(high, kHighShare);
+  parameters.low = std::min(threshold(low, kLowShare), parameters.high);
   parameters.vertical_votes = votes(options.vertical_votes_percent, height_px);
   parameters.inclined_votes = votes(options.inclined_votes_percent, height_px);
   const LineRanges ranges = predictLineRanges(view, width_px, height_px, options);
