@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 std::vector<ImageLine> acceptedLines(const Frame& frame, const Detections& detections) {
   std::vector<ImageLine> lines;
   for (const Detection& d : detections) {
-    if (!d.accepted()) continue;
+    if (!d.accepted() || d.on_surface) continue;  // no pillar edge, and said to be none
     const bool ranged = d.measurement.hasRange();
     const auto inside = clipped(
         {d.kind(), d.a_px, d.b_px, ranged ? std::optional(d.measurement.z(1)) : std::nullopt},

@@ -53,6 +53,17 @@ TEST(PillarKind, FurnitureIsTooLow) {
   EXPECT_TRUE(seesEdgeAt(detectAll(blind), {3.0, -1.0}));
 }
 
+TEST(PillarKind, AnEdgeWithoutDepthThatEndsOnAWallIsRefused) {
+  // A mirror: no depth on it, wall below it.
+  Scene scene{{wall(), {{3.999, -0.6}, {3.999, 0.6}, 60.0, 0.5, 2.5}}, {}};
+  Frame frame = withNoise(render(scene, kLevel), 2.0, 5);
+  EXPECT_FALSE(seesEdgeAt(detectAll(frame), {3.999, 0.6}));
+  for (int v = 0; v < frame.gray.rows; ++v)
+    for (int u = 0; u < frame.gray.cols; ++u)
+      if (v < frame.gray.rows / 2 && u > 20) frame.depth_m.at<float>(v, u) = 0.0F;
+  EXPECT_FALSE(seesEdgeAt(detectAll(frame), {3.999, 0.6}));
+}
+
 TEST(PillarKind, AnEdgeWhoseFootIsHiddenStays) {
   // A box before the foot of the pillar.
   Scene scene{{wall(), {{3.5, -0.4}, {3.5, 0.4}, 70.0}, {{2.0, -0.8}, {2.0, 0.8}, 110.0, 0.0, 0.5}},

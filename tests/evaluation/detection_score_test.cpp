@@ -44,6 +44,24 @@ TEST_F(PillarScore, FaintFarAndShortLinesNeedNotBeFoundButMay) {
   const auto& kind = scored({upright(100, 0, 200)}, {truth(100, 0, 200, 3.0, 5.0),
                                                      truth(200, 0, 200, 9.0), truth(300, 0, 40)});
   EXPECT_EQ(0U, kind.wanted);
+  EXPECT_EQ(1U, kind.ignored);
+}
+
+TEST_F(PillarScore, EdgesBeyondTheLimitsAreNeitherRightNorWrong) {
+  const auto& kind = scored({upright(100, 0, 200), upright(200, 0, 200), upright(300, 0, 40),
+                             upright(400, 0, 200), upright(500, 0, 200)},
+                            {truth(100, 0, 200, 3.0, 5.0), truth(200, 0, 200, 9.0),
+                             truth(300, 0, 40), truth(400, 0, 200)});
+  EXPECT_EQ(3U, kind.ignored);
+  EXPECT_EQ(1U, kind.right);
+  EXPECT_DOUBLE_EQ(0.5, kind.precision());
+  EXPECT_DOUBLE_EQ(1.0, kind.recall());
+}
+
+TEST_F(PillarScore, AFaintEdgeBesideAStrongOneIsJudgedWithIt) {
+  const auto& kind =
+      scored({upright(101, 0, 200)}, {truth(100, 0, 200), truth(101, 0, 200, 3.0, 5.0)});
+  EXPECT_EQ(0U, kind.ignored);
   EXPECT_DOUBLE_EQ(1.0, kind.precision());
 }
 

@@ -28,6 +28,7 @@ std::string row(const Frame& frame, std::size_t index, const Detection& detectio
   cells.push_back(std::to_string(detection.appearance.gradient_sign));
   cells.push_back(detection.partner ? std::to_string(*detection.partner) : "");
   cells.push_back(detection.width_m > 0.0 ? formatFixed(detection.width_m, 4) : "");
+  cells.emplace_back(detection.on_surface ? "1" : "");
   return joined(cells, ",") + "\n";
 }
 
@@ -35,7 +36,7 @@ std::string row(const Frame& frame, std::size_t index, const Detection& detectio
 
 std::string detectionCsvHeader() {
   return "stamp,frame,detection,kind,refusal,u0,v0,u1,v1,angle_deg,distance_m,sigma_deg,sigma_m,"
-         "gradient_sign,partner,width_m\n";
+         "gradient_sign,partner,width_m,on_surface\n";
 }
 
 std::string detectionCsvRows(const Frame& frame, const Detections& detections) {

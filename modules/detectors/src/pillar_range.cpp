@@ -186,6 +186,8 @@ PillarRange measurePillarRange(const DepthView& depth, const RefinedLine& line,
   const bool smooth =
       std::abs(range_l - range_r) < options.surface_step_m + 3.0 * noise_m + 2.0 * lateral_m &&
       sides[1 - near].start <= kNearStart_px;
+  result.smooth = smooth;
+  result.slope_m_per_px = lateral_m;
   result.range_m =
       smooth ? 2.0 / (sides[0].inverse_range + sides[1].inverse_range) : nearer.range();
   const double extrapolation = smooth ? 1.0 : 1.5;

@@ -18,6 +18,8 @@ struct PillarRange {
   Verdict verdict = Verdict::kUnknown;
   double range_m = 0.0;  ///< horizontal, from the camera
   double sigma_m = 0.0;
+  double slope_m_per_px = 0.0;  ///< of the nearer surface's range, across the line
+  bool smooth = false;          ///< measured, and the surface goes on on the other side
 };
 
 PillarRange measurePillarRange(const DepthView& depth, const RefinedLine& line,

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
+
 #include "colonnade/detectors/pillar_detector.hpp"
 #include "depth_view.hpp"
 
@@ -26,8 +28,22 @@ std::string reasonAgainstSpan(const cv::Mat& gray, const DepthView& depth,
                               const SeenSpan& span, std::optional<double> range_m,
                               const PillarOptions& options);
 
-/// Is it the gentle slope of a shade on a wall, such as in a corner or of a lamp, and no edge? Then
-/// the gradient across it stays above half of its peak over many pixels.
-bool isShade(const cv::Mat& gray, const RefinedLine& line);
+/// Mean gray levels beside a line, by distance from it, in the sense of its gradient: they rise at
+/// 0.
+class AcrossProfile {
+ public:
+  static constexpr int kReach_px = 20;
+  AcrossProfile(const cv::Mat& gray, const RefinedLine& line);
+
+  /// The gentle slope of a shade on a wall, such as in a corner or of a lamp, and no edge: the
+  /// gradient stays above half of its peak over many pixels.
+  bool isShade() const;
+  /// One side of a line of up to this width with the same shade on both sides of it.
+  bool isThinLine(int width_px) const;
+
+ private:
+  double at(int k) const { return sums_[static_cast<std::size_t>(k + kReach_px)]; }
+  std::array<double, 2 * kReach_px + 1> sums_{};
+};
 
 }  // namespace colonnade

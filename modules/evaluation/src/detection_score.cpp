@@ -56,12 +56,17 @@ std::optional<double> offsetAcross(const ImageLine& seen, const ImageLine& there
   return at(0.5 * (from + to));
 }
 
-bool isWanted(const TrueImageLine& line, const DetectionScoreOptions& options) {
+/// Near, long and strong enough to be judged.
+bool isWithinLimits(const TrueImageLine& line, const DetectionScoreOptions& options) {
   const bool by_depth = line.kind == LandmarkKind::kDepthSlope;
   const double farthest_m = by_depth ? options.max_corner_distance_m : options.max_distance_m;
-  return line.true_class == TrueClass::kWanted && line.visible_px >= options.min_visible_px &&
+  return line.visible_px >= options.min_visible_px &&
          (by_depth || line.contrast >= options.min_contrast) &&
          (!line.distance_m || *line.distance_m <= farthest_m);
+}
+
+bool isWanted(const TrueImageLine& line, const DetectionScoreOptions& options) {
+  return line.true_class == TrueClass::kWanted && isWithinLimits(line, options);
 }
 
 double share(std::size_t part, std::size_t whole) {
@@ -124,6 +129,7 @@ void DetectionScore::add(const std::vector<ImageLine>& detected,
     ++kind.detected;
     std::optional<double> nearest;
     std::size_t nearest_line = 0;
+    bool within_limits = false;              // is one of the lines of the building it lies on
     double closest = options_.tolerance_px;  // to any line at rest: what it really is
     const auto rank = [&](std::size_t i) {   // what counts most, then what lies nearest
       return there[i].true_class > TrueClass::kStructure;
@@ -133,6 +139,8 @@ void DetectionScore::add(const std::vector<ImageLine>& detected,
       const auto offset = offsetAcross(seen, there[i], options_);
       if (!offset) continue;
       found[i] = true;
+      within_limits |=
+          there[i].true_class <= TrueClass::kStructure && isWithinLimits(there[i], options_);
       if (there[i].true_class <= TrueClass::kFixed) closest = std::min(closest, std::abs(*offset));
       if (nearest && std::pair(rank(nearest_line), std::abs(*nearest)) <=
                          std::pair(rank(i), std::abs(*offset)))
@@ -144,6 +152,11 @@ void DetectionScore::add(const std::vector<ImageLine>& detected,
                   : there[nearest_line].called.empty() ? name(seen.kind)
                                                        : there[nearest_line].called];
     if (!nearest) continue;
+    if (seen.kind == LandmarkKind::kPillarEdge && !within_limits &&
+        there[nearest_line].true_class <= TrueClass::kStructure) {
+      ++kind.ignored;
+      continue;
+    }
     kind.right_wide += there[nearest_line].true_class <= TrueClass::kFixed ? 1 : 0;
     if (there[nearest_line].true_class > TrueClass::kStructure) continue;
     ++kind.right;
@@ -163,8 +176,8 @@ void DetectionScore::add(const std::vector<ImageLine>& detected,
   }
 }
 
-double DetectionScore::Kind::precision() const { return share(right, detected); }
-double DetectionScore::Kind::precisionWide() const { return share(right_wide, detected); }
+double DetectionScore::Kind::precision() const { return share(right, detected - ignored); }
+double DetectionScore::Kind::precisionWide() const { return share(right_wide, detected - ignored); }
 double DetectionScore::Kind::recall() const { return share(found, wanted); }
 double DetectionScore::Kind::offsetRms() const {
   return right == 0 ? 0.0 : std::sqrt(offset_squares / static_cast<double>(right));
@@ -182,8 +195,9 @@ nlohmann::ordered_json toJson(const DetectionScore& score) {
     };
     json[name(static_cast<LandmarkKind>(i))] = {
         {"detected", kind.detected},
-        {"precision", orNull(kind.detected > 0, kind.precision())},
-        {"precision_wide", orNull(kind.detected > 0, kind.precisionWide())},
+        {"ignored", kind.ignored},
+        {"precision", orNull(kind.detected > kind.ignored, kind.precision())},
+        {"precision_wide", orNull(kind.detected > kind.ignored, kind.precisionWide())},
         {"wanted", kind.wanted},
         {"recall", orNull(kind.wanted > 0, kind.recall())},
         {"offset_rms_px", orNull(kind.right > 0, kind.offsetRms())},
@@ -196,8 +210,8 @@ nlohmann::ordered_json toJson(const DetectionScore& score) {
 std::string toText(const DetectionScore& score) {
   const auto& o = score.options();
   std::string text = "against the truth, within " + formatFixed(o.tolerance_px, 1) +
-                     " px; recall of lines nearer than " + formatFixed(o.max_distance_m, 1) +
-                     " m (corners " + formatFixed(o.max_corner_distance_m, 1) + " m), " +
+                     " px; lines nearer than " + formatFixed(o.max_distance_m, 1) + " m (corners " +
+                     formatFixed(o.max_corner_distance_m, 1) + " m), " +
                      formatFixed(o.min_visible_px, 0) + " px or more in view, contrast " +
                      formatFixed(o.min_contrast, 0) + " or more (corners any)\n";
   for (int i = 0; i < kLandmarkKinds; ++i) {
@@ -207,16 +221,18 @@ std::string toText(const DetectionScore& score) {
     const auto orDash = [](bool known, double value, int decimals) {
       return known ? formatFixed(value, decimals) : std::string("-");
     };
-    line += "precision " + orDash(kind.detected > 0, kind.precision(), 3) +
-            (kind.right_wide > kind.right ? " (" + formatFixed(kind.precisionWide(), 3) +
-                                                " with boards, panels, cabinets, open doors)"
-                                          : "") +
-            " of " + std::to_string(kind.detected) + ", recall " +
-            orDash(kind.wanted > 0, kind.recall(), 3) + " of " + std::to_string(kind.wanted) +
-            ", offset " + orDash(kind.right > 0, kind.offsetRms(), 2) + " px rms, distance " +
-            orDash(kind.distances > 0, kind.distanceRms(), 3) + " m rms\n";
+    line +=
+        "precision " + orDash(kind.detected > kind.ignored, kind.precision(), 3) +
+        (kind.right_wide > kind.right ? " (" + formatFixed(kind.precisionWide(), 3) +
+                                            " with boards, panels, cabinets, open doors)"
+                                      : "") +
+        " of " + std::to_string(kind.detected - kind.ignored) +
+        (kind.ignored > 0 ? " (" + std::to_string(kind.ignored) + " beyond limits ignored)" : "") +
+        ", recall " + orDash(kind.wanted > 0, kind.recall(), 3) + " of " +
+        std::to_string(kind.wanted) + ", offset " + orDash(kind.right > 0, kind.offsetRms(), 2) +
+        " px rms, distance " + orDash(kind.distances > 0, kind.distanceRms(), 3) + " m rms\n";
     text += line;
-    if (kind.right == kind.detected) continue;
+    if (kind.right + kind.ignored == kind.detected) continue;
     text += "            lie on";
     for (const auto& [what, count] : kind.lie_on) text += " " + what + " " + std::to_string(count);
     text += "\n";

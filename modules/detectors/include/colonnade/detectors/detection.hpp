@@ -30,6 +30,9 @@ struct Detection {
   /// Pillar edges: the other edge of the same pillar, as an index into the frame's detections.
   std::optional<std::size_t> partner;
   double width_m = 0.0;  ///< pillars whose two edges have range, otherwise 0
+  /// Pillar edges: a line of paint, a joint or a narrow gap, with the same surface on both sides. It
+  /// stays where it is, and so serves as a landmark, but is no edge of a pillar, frame or wall.
+  bool on_surface = false;
   std::string refusal;   ///< why the detector does not stand behind it; empty = accepted
 
   LandmarkKind kind() const { return measurement.kind; }

@@ -13,7 +13,7 @@ namespace colonnade {
 ///   stamp, frame, detection (index in the frame), kind, refusal (empty = accepted),
 ///   u0, v0, u1, v1 (ends of the line, pixels), angle_deg (bearing, or direction of a floor edge's
 ///   normal, robot's axes), distance_m (horizontal, from the camera; empty: bearing only),
-///   sigma_deg, sigma_m, gradient_sign, partner, width_m
+///   sigma_deg, sigma_m, gradient_sign, partner, width_m, on_surface (1: paint, joint or gap)
 std::string detectionCsvHeader();
 std::string detectionCsvRows(const Frame& frame, const Detections& detections);
 

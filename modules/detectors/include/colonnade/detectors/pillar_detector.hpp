@@ -14,6 +14,7 @@ struct PillarOptions {
   static constexpr const char* kSection = "Pillars";
   bool enabled = true;
   double vertical_tolerance = radians(4.0);
+  double parallel_tolerance = radians(1.0);  ///< in space, of all upright edges of a frame
   double min_length_px = 50.0;
   double min_length_bearing_only_px = 100.0;
   double separation = radians(0.4);   ///< edges of one sign closer than this are one
@@ -30,6 +31,8 @@ struct PillarOptions {
     v.flag("enabled", enabled, "look for pillar edges");
     v.angle("vertical_tolerance_deg", vertical_tolerance, {0.5, 30},
             "from the projected vertical in the image");
+    v.angle("parallel_tolerance_deg", parallel_tolerance, {0.1, 30},
+            "from the projected vertical by more than the other upright edges of the frame");
     v.number("min_length_px", min_length_px, {10, 2000}, "of an edge with range");
     v.number("min_length_bearing_only_px", min_length_bearing_only_px, {10, 2000},
              "of an edge whose depth is not known");

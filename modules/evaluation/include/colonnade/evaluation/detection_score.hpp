@@ -60,8 +60,10 @@ struct DetectionScoreOptions {
 };
 
 /// Scores detections of one kind over many pictures.
-///   precision: share of the detections that lie on a true line of their kind, however faint:
-///     for pillars an edge of the building that stands on the floor, or the outline of a round one
+///   precision: share of the detections that lie on a true line of their kind:
+///     for pillars an edge of the building that stands on the floor, or the outline of a round one.
+///     Pillars on such an edge that is farther, shorter or fainter than the options ask for are
+///     ignored: neither right nor wrong. On anything else they are wrong, wherever it is
 ///   precision_wide: pillars on any line that is vertical in space and stays where it is counted
 ///     as right too: boards, joints, panels, open doors, cabinets. Never table legs or people
 ///   recall: share of the true lines to be found that have a detection
@@ -74,7 +76,7 @@ class DetectionScore {
   void add(const std::vector<ImageLine>& detected, const std::vector<TrueImageLine>& there);
 
   struct Kind {
-    std::size_t detected = 0, right = 0, right_wide = 0;
+    std::size_t detected = 0, right = 0, right_wide = 0, ignored = 0;
     std::size_t wanted = 0, found = 0;
     double offset_squares = 0.0;
     double distance_squares = 0.0;
