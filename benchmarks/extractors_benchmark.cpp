@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "colonnade/base/log_path.hpp"
+#include "colonnade/base/memory.hpp"
 #include "colonnade/detectors/detector_bank.hpp"
 #include "colonnade/detectors/edge_view_of.hpp"
 #include "colonnade/detectors/levelled_camera.hpp"
@@ -217,6 +218,7 @@ int run(const std::string& log, std::size_t still, std::size_t every) {
 }  // namespace colonnade
 
 int main(int argc, char** argv) {
+  colonnade::keepFreedMemory();
   std::size_t still = 0;
   std::size_t every = 1;
   std::string log;

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <exception>
 
+#include "colonnade/base/memory.hpp"
 #include "verbs.hpp"
 
 namespace {
@@ -46,6 +47,7 @@ int fail(const std::string& message, colonnade::ExitCode code) {
 
 int main(int argc, char** argv) {
   using colonnade::ExitCode;
+  colonnade::keepFreedMemory();
   CLI::App app{"Colonnade: landmark SLAM for indoor robots on MRPT", "colonnade"};
   app.require_subcommand(1);
   app.set_version_flag("--version", COLONNADE_VERSION);
