@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Colonnade authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <gmock/gmock.h>
+
 #include <limits>
 #include <opencv2/core.hpp>
 
@@ -56,7 +58,6 @@ class StrangeFramesRun : public testing::ProgramTest {
 };
 
 TEST_F(StrangeFramesRun, OfTheImageMapNothingAndAreCounted) {
-  expectNothing("dot", {cv::Mat(1, 1, CV_8UC1, cv::Scalar(9)), {}}, "the image is too small");
   expectNothing("black", {plain(0), {}}, "the image has no contrast");
   expectNothing("white", {plain(255), {}}, "the image has no contrast");
   expectNothing("noise", {noise(), {}}, "the image is noise");
@@ -64,8 +65,23 @@ TEST_F(StrangeFramesRun, OfTheImageMapNothingAndAreCounted) {
 
 TEST_F(StrangeFramesRun, OfTheDepthMapNothingAndAreCounted) {
   expectNothing("zero", {plain(0), depth(0)}, "the depth holds no values");
-  expectNothing("nan", {plain(0), depth(900), std::numeric_limits<double>::quiet_NaN()},
-                "the depth holds no values");
+}
+
+TEST_F(StrangeFramesRun, WithDepthThatIsNoNumberAreCountedAsDamage) {
+  write("nan.rawlog", {plain(0), depth(900), std::numeric_limits<double>::quiet_NaN()});
+  const auto outcome = colonnade("run nan.rawlog -o nan");
+  EXPECT_EQ(3, outcome.exit_code) << outcome.err;
+  EXPECT_THAT(outcome.err, ::testing::HasSubstr("6 skipped: depth without a unit"));
+  for (const auto& [kind, count] : summary("nan")["landmarks"].items()) EXPECT_EQ(0, count) << kind;
+}
+
+TEST_F(StrangeFramesRun, OfOnePixelEndInOneLine) {
+  write("dot.rawlog", {cv::Mat(1, 1, CV_8UC1, cv::Scalar(9)), {}});
+  const auto outcome = colonnade("run dot.rawlog -o dot");
+  EXPECT_EQ(1, outcome.exit_code);
+  EXPECT_EQ(1, outcome.errorLines()) << outcome.err;
+  EXPECT_THAT(outcome.err, ::testing::HasSubstr("no camera images or depth"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "dot/landmarks.csv"));
 }
 
 }  // namespace
