@@ -25,6 +25,7 @@
 #include <string_view>
 #include <vector>
 
+#include "colonnade/base/memory.hpp"
 #include "colonnade/slam/range_bearing_slam.hpp"
 
 namespace {
@@ -194,6 +195,7 @@ void run(int landmarks, int steps, const Flags& flags) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  colonnade::keepFreedMemory();
   Flags flags;
   for (; argc > 1 && std::string_view(argv[1]).starts_with("--"); ++argv, --argc) {
     const std::string_view flag(argv[1]);

@@ -138,7 +138,7 @@ ExitCode acceleratorRun(const AcceleratorRunArguments& arguments) {
       "frames     %zu of %s, edges and lines of each equal to fixed\n"
       "lines      %s a frame, median and range\n"
       "clocks     %s from first pixel to last line\n"
-      "board      %s ms a frame at %s MHz, %s frames/s\n"
+      "board      %s ms a frame at %s MHz, at least %s frames/s\n"
       "fixed      %s ms a frame on this processor, one thread\n"
       "OpenCV     %s ms a frame, Canny and HoughLines over all angles: %s times fixed on average\n",
       bench.clocks.size(), nameOf(bench.size).c_str(), spread(bench.lines, 0).c_str(),
