@@ -197,13 +197,15 @@ void run(int landmarks, int steps, const Flags& flags) {
 int main(int argc, char** argv) {
   colonnade::keepFreedMemory();
   Flags flags;
+  bool unknown = false;
   for (; argc > 1 && std::string_view(argv[1]).starts_with("--"); ++argv, --argc) {
     const std::string_view flag(argv[1]);
     flags.full |= flag == "--full";
     flags.hidden |= flag == "--hidden";
     flags.ours |= flag == "--ours";
+    unknown |= flag != "--full" && flag != "--hidden" && flag != "--ours";
   }
-  if (argc < 3) {
+  if (argc < 3 || unknown) {
     std::fprintf(stderr, "range_bearing_speed [--full] [--hidden] [--ours] STEPS N...\n");
     return 2;
   }

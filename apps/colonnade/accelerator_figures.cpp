@@ -19,7 +19,8 @@ std::string sizeName(const cv::Size& size) {
 /// What an entry of measured.json found, without where it comes from.
 Json found(const Json& measured, const std::string& name) {
   Json entry = measured.at("entries").at(name);
-  for (const char* key : {"kind", "design", "what", "parameters", "rtl_sha256", "tools"}) entry.erase(key);
+  for (const char* key : {"kind", "design", "what", "parameters", "rtl_sha256", "tools"})
+    entry.erase(key);
   return entry;
 }
 

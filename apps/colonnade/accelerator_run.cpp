@@ -9,13 +9,13 @@
 #include <opencv2/core/utility.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "accelerator_times.hpp"
 #include "colonnade/accelerator/accelerator.hpp"
 #include "colonnade/accelerator/model_transport.hpp"
 #include "colonnade/base/text.hpp"
 #include "colonnade/detectors/edge_view_of.hpp"
 #include "colonnade/edges/fixed_lines.hpp"
 #include "colonnade/frames/rawlog_source.hpp"
-#include "accelerator_times.hpp"
 #include "interrupt.hpp"
 #include "measured.hpp"
 #include "progress.hpp"

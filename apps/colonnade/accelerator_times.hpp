@@ -14,7 +14,8 @@ namespace colonnade {
 /// Of processor time of this process, which other programs disturb less than the clock on the wall.
 double processorMilliseconds(const std::function<void()>& work);
 
-/// What `fixed` is measured against: OpenCV's own Canny and Hough, as the `opencv` backend calls them.
+/// What `fixed` is measured against: OpenCV's own Canny and Hough, with the parameters of the
+/// `opencv` backend.
 class BareOpenCv {
  public:
   /// Gaussian and Canny.

@@ -64,6 +64,18 @@ TEST(PillarKind, AnEdgeWithoutDepthThatEndsOnAWallIsRefused) {
   EXPECT_FALSE(seesEdgeAt(detectAll(frame), {3.999, 0.6}));
 }
 
+TEST(PillarKind, TwoEdgesAloneMayLeanWithTheCamera) {
+  // The camera has rolled by 2.5 degrees and nobody knows.
+  Scene scene{{wall(), {{3.5, -0.4}, {3.5, 0.4}, 70.0}}, {}};
+  CameraPlace rolled = kLevel;
+  rolled.roll = radians(2.5);
+  Frame frame = withNoise(render(scene, rolled), 2.0, 6);
+  frame.T_robot_camera = render(scene, kLevel).T_robot_camera;
+  const auto all = detectAll(frame);
+  EXPECT_FALSE(isRefused(all, "leans over"));
+  EXPECT_GE(accepted(all, LandmarkKind::kPillarEdge).size(), 2U);
+}
+
 TEST(PillarKind, AnEdgeWhoseFootIsHiddenStays) {
   // A box before the foot of the pillar.
   Scene scene{{wall(), {{3.5, -0.4}, {3.5, 0.4}, 70.0}, {{2.0, -0.8}, {2.0, 0.8}, 110.0, 0.0, 0.5}},

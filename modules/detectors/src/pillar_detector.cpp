@@ -64,7 +64,7 @@ bool isCandidate(const LevelledCamera& camera, const RefinedLine& line,
 
 /// Where the camera's roll is not quite right, all verticals of a frame lean over by the same;
 /// where its pitch is not, by what is linear in the column. Theil and Sen's line through all of
-/// them.
+/// them, where there are enough of them to tell.
 class CommonLean {
  public:
   CommonLean(const LevelledCamera& camera, const RefinedLines& lines,
@@ -84,7 +84,9 @@ class CommonLean {
     per_px_ = medianOf(slopes);
     for (const auto& [column, angle] : leans) offsets.push_back(angle - per_px_ * column);
     at_0_ = medianOf(offsets);
+    known_ = true;
   }
+  bool known() const { return known_; }
   double of(const RefinedLine& line) const { return at_0_ + per_px_ * middleOf(line); }
 
  private:
@@ -92,6 +94,7 @@ class CommonLean {
     return line.across(0.5 * (line.begin + line.end));
   }
   double at_0_ = 0.0, per_px_ = 0.0;
+  bool known_ = false;
 };
 
 Measurement toMeasurement(const LevelledCamera& camera, const Bearing& bearing,
@@ -122,7 +125,8 @@ bool isSameLandmark(const Detection& a, const Detection& b, double separation) {
   return std::abs(m.z[1] - n.z[1]) < 0.1 + 3.0 * std::sqrt(m.R(1, 1) + n.R(1, 1));
 }
 
-/// Does depth beside a line show that no surface is at this range?
+/// Does depth beside most of a line not show a surface at this range? Where depth is missing it does
+/// not.
 bool isElsewhere(const DepthView& depth, const RefinedLine& line, double range_m) {
   constexpr int kPlaces = 8;
   constexpr double kBeside_px = 5.0;
@@ -221,7 +225,7 @@ Detections PillarDetector::detect(const Frame& frame, const RefinedLines& given)
     detection.appearance.left = meanColourBeside(frame, line, line.begin, line.end, -1);
     detection.appearance.right = meanColourBeside(frame, line, line.begin, line.end, 1);
     detection.refusal = reasonToRefuse(range.verdict, line.length(), options_);
-    if (detection.accepted() &&
+    if (detection.accepted() && common_lean.known() &&
         std::abs(lean(camera, line) - common_lean.of(line)) >
             options_.parallel_tolerance + 2.0 * std::sqrt(line.covariance(1, 1)))
       detection.refusal = "leans over";

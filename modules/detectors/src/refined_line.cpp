@@ -181,7 +181,7 @@ class StretchCosts {
 
 /// Where a second straight line begins, if two explain the samples so much better than one that
 /// noise cannot be the reason: the feet of a wall and of a door in it, some centimetres farther
-/// back, look like one slanting line (F test for a break at an unknown place, after A. Chow, "Tests
+/// back, look like one slanting line (F test for a break at an unknown place, after G. C. Chow, "Tests
 /// of equality between sets of coefficients in two linear regressions", Econometrica 1960).
 std::optional<std::size_t> breakOf(std::span<const Sample> samples, double correlated_samples) {
   constexpr std::size_t kLeast = 10;  // samples of a part

@@ -148,15 +148,15 @@ void DetectionScore::add(const std::vector<ImageLine>& detected,
       nearest = offset;
       nearest_line = i;
     }
-    ++kind.lie_on[!nearest                             ? "nothing"
-                  : there[nearest_line].called.empty() ? name(seen.kind)
-                                                       : there[nearest_line].called];
-    if (!nearest) continue;
-    if (seen.kind == LandmarkKind::kPillarEdge && !within_limits &&
+    if (nearest && seen.kind == LandmarkKind::kPillarEdge && !within_limits &&
         there[nearest_line].true_class <= TrueClass::kStructure) {
       ++kind.ignored;
       continue;
     }
+    ++kind.lie_on[!nearest                             ? "nothing"
+                  : there[nearest_line].called.empty() ? name(seen.kind)
+                                                       : there[nearest_line].called];
+    if (!nearest) continue;
     kind.right_wide += there[nearest_line].true_class <= TrueClass::kFixed ? 1 : 0;
     if (there[nearest_line].true_class > TrueClass::kStructure) continue;
     ++kind.right;

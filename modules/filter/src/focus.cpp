@@ -12,7 +12,7 @@ namespace {
 
 /// Share of right measurements whose landmark is found among the resting ones.
 constexpr double kNearProbability = 0.9999;
-/// Several times the widest that gate can be in any direction, for a first look by distance.
+/// Four times that gate, for a first look by distance: Var(a - b) is at most 2 (Var a + Var b).
 constexpr double kFirstLook2 = 4.0 * 18.4;
 constexpr double kFarthestInverseDepth = 1e-3;
 /// What is active lies around a point ahead of the robot, by this share of its radius: the way it

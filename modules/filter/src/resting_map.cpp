@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numbers>
 
 #include "colonnade/base/angle.hpp"
 
@@ -19,7 +18,7 @@ constexpr Eigen::Index kColumnsTogether = 32;
 constexpr Eigen::Index kStepsToWorkOff = 32;
 /// Parts of a change of P smaller than this share of its largest are rounding.
 constexpr double kRounding = 1e-13;
-/// What is negligible is judged on so many resting blocks, evenly spread over all.
+/// What is negligible is judged on at most so many resting blocks, evenly spread over all.
 constexpr std::size_t kBlocksJudged = 500;
 
 bool before(const Block& block, LandmarkId id) { return block.id < id; }
@@ -33,7 +32,7 @@ Layout layoutOf(BlockKind kind) {
   return kind == BlockKind::kAxis ? Layout{-1, 0} : Layout{0, kind == BlockKind::kPoint ? -1 : 2};
 }
 
-/// The rows of `from` at the parameters of these blocks; those of the robot first if it is there.
+/// The rows of the parameters of these blocks.
 std::vector<Eigen::Index> indicesOf(const std::vector<Block>& blocks) {
   std::vector<Eigen::Index> indices;
   for (const Block& block : blocks)
@@ -200,13 +199,12 @@ void RestingMap::workOff() {
 
 Eigen::MatrixXd RestingMap::columnsNow(const std::vector<Eigen::Index>& columns) const {
   Eigen::MatrixXd E(x_.size(), static_cast<Eigen::Index>(columns.size()));
-  std::vector<Eigen::Index> unpaid, unpaid_rows;  // columns of panels that are not paid yet
+  std::vector<Eigen::Index> unpaid;  // columns of panels that are not paid yet
   const Eigen::Index first_unpaid = std::min(x_.size(), SymmetricPanels::firstRow(panels_done_));
   for (std::size_t i = 0; i < columns.size(); ++i) {
     E.col(static_cast<Eigen::Index>(i)) = P_.column(columns[i]);
     if (columns[i] < first_unpaid) continue;
     unpaid.push_back(static_cast<Eigen::Index>(i));
-    unpaid_rows.push_back(columns[i]);
   }
   if (owed_.cols() == 0 || columns.empty()) return E;
   const Eigen::MatrixXd right = weights_.asDiagonal() * owed_(columns, Eigen::all).transpose();
@@ -234,7 +232,8 @@ Eigen::VectorXd RestingMap::variances() const {
 }
 
 Eigen::MatrixXd RestingMap::judged() const {
-  const std::size_t stride = 1 + blocks_.size() / kBlocksJudged;
+  const std::size_t stride =
+      std::max<std::size_t>(1, (blocks_.size() + kBlocksJudged - 1) / kBlocksJudged);
   std::vector<Eigen::Index> rows;
   for (std::size_t i = 0; i < blocks_.size(); i += stride)
     for (int k = 0; k < blocks_[i].size(); ++k) rows.push_back(blocks_[i].offset + k);

@@ -39,7 +39,7 @@ struct DepthSlopeOptions {
     v.number("relief_m", relief_m, {0, 0.2}, "of frames that stand out from a surface's end");
     v.number("max_gap_m", max_gap_m, {0, 1}, "between two surfaces that meet");
     v.number("reach_px", reach_px, {0.5, 20}, "from the end of a surface to where both meet");
-    v.number("edge_sigma_px", edge_sigma_px, {0.1, 10}, "of outlines, scaled by f / 580 px");
+    v.number("edge_sigma_px", edge_sigma_px, {0.1, 10}, "of outlines at f = 580 px, half of it at any");
     v.integer("min_bands", min_bands, {1, 3}, "of three height bands that must agree");
     v.flag("concave", concave, "also corners that point away from the camera");
     v.flag("occlusions", occlusions, "also the near side of jumps in depth");

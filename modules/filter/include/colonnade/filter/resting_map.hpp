@@ -43,8 +43,8 @@ class RestingMap {
 
   /// Brings the resting part up to date and exchanges blocks: afterwards the state holds the blocks
   /// of `active` (ascending; all of them known here or there), and the others rest. Of what the
-  /// resting blocks gained, parts are left out that lower no variance by more than a share of
-  /// `negligible`: the covariance of all stays the true one plus something positive semidefinite.
+  /// resting blocks gained, parts are left out for good that lower no judged variance (of blocks evenly
+  /// spread) by more than a share of `negligible`: the covariance of all stays the true one plus something positive semidefinite.
   void exchange(State& state, const std::vector<LandmarkId>& active, bool invariant,
                 double negligible);
   /// A part of the work the exchanges left.
