@@ -103,6 +103,17 @@ class Saboteur : public AcceleratorTransport {
   cv::Mat bent_;
 };
 
+class SabotagedAccelerator : public ::testing::Test {
+ protected:
+  SabotagedAccelerator() : SabotagedAccelerator(std::make_unique<Saboteur>(kSize)) {}
+  Saboteur& device_;
+  Accelerator accelerator_;
+
+ private:
+  explicit SabotagedAccelerator(std::unique_ptr<Saboteur> saboteur)
+      : device_(*saboteur), accelerator_(std::move(saboteur), runShape()) {}
+};
+
 TEST(Accelerator, WorksOnTwoFramesAtATimeWithParametersOfTheirOwn) {
   Accelerator accelerator(makeModelTransport(kSize), runShape());
   EXPECT_EQ(accelerator.size(), kSize);
@@ -148,66 +159,57 @@ TEST(Accelerator, RefusesWhatDoesNotFit) {
   EXPECT_EQ(makeModelTransport({321, 240}), nullptr);
 }
 
-TEST(Accelerator, NamesAHangAndWorksOnAfterIt) {
-  auto saboteur = std::make_unique<Saboteur>(kSize);
-  Saboteur& device = *saboteur;
-  Accelerator accelerator(std::move(saboteur), runShape());
-  accelerator.configure(parametersFor());
-  device.deed = Saboteur::Deed::kSwallowFrame;
-  accelerator.submit(scene(1));
-  const auto hang = accelerator.wait();
+TEST_F(SabotagedAccelerator, NamesAHangAndWorksOnAfterIt) {
+  accelerator_.configure(parametersFor());
+  device_.deed = Saboteur::Deed::kSwallowFrame;
+  accelerator_.submit(scene(1));
+  const auto hang = accelerator_.wait();
   EXPECT_EQ(hang.fault, AcceleratorFault::kHang);
   EXPECT_THAT(hang.detail, HasSubstr("clocks"));
-  accelerator.configure(parametersFor());
-  const auto id = accelerator.submit(scene(2));
-  const auto next = accelerator.wait();
+  accelerator_.configure(parametersFor());
+  const auto id = accelerator_.submit(scene(2));
+  const auto next = accelerator_.wait();
   EXPECT_EQ(next.fault, AcceleratorFault::kNone) << next.detail;
   EXPECT_EQ(next.frame_id, id);
   EXPECT_TRUE(next.found.lines == FixedStage(runShape()).process(scene(2), parametersFor()).lines);
 }
 
-TEST(Accelerator, PollingAloneBringsResultsAndHangs) {
-  auto saboteur = std::make_unique<Saboteur>(kSize);
-  Saboteur& device = *saboteur;
-  Accelerator accelerator(std::move(saboteur), runShape());
+TEST_F(SabotagedAccelerator, PollingAloneBringsResultsAndHangs) {
   const auto polled = [&] {
     for (int i = 0; i < 5000; ++i) {
-      if (auto result = accelerator.poll()) return *result;
+      if (auto result = accelerator_.poll()) return *result;
     }
     AcceleratorResult never;
     never.detail = "never";
     return never;
   };
-  accelerator.configure(parametersFor());
-  accelerator.submit(scene(1));
+  accelerator_.configure(parametersFor());
+  accelerator_.submit(scene(1));
   const auto found = polled();
   EXPECT_EQ(found.fault, AcceleratorFault::kNone) << found.detail;
   EXPECT_TRUE(found.found.lines == FixedStage(runShape()).process(scene(1), parametersFor()).lines);
-  device.bend(Saboteur::Deed::kWrongSize, {300, 200});
-  accelerator.submit(scene(2));
+  device_.bend(Saboteur::Deed::kWrongSize, {300, 200});
+  accelerator_.submit(scene(2));
   const auto hang = polled();
   EXPECT_EQ(hang.fault, AcceleratorFault::kHang);
   EXPECT_THAT(hang.detail, HasSubstr("a line too short"));
 }
 
-TEST(Accelerator, DoesNotTakeTheSecondFrameForAFirstThatGotLost) {
-  auto saboteur = std::make_unique<Saboteur>(kSize);
-  Saboteur& device = *saboteur;
-  Accelerator accelerator(std::move(saboteur), runShape());
-  accelerator.configure(parametersFor());
-  device.deed = Saboteur::Deed::kSwallowFrame;
-  const auto first = accelerator.submit(scene(1));
-  const auto second = accelerator.submit(scene(2));
-  const auto wrong = accelerator.wait();
+TEST_F(SabotagedAccelerator, DoesNotTakeTheSecondFrameForAFirstThatGotLost) {
+  accelerator_.configure(parametersFor());
+  device_.deed = Saboteur::Deed::kSwallowFrame;
+  const auto first = accelerator_.submit(scene(1));
+  const auto second = accelerator_.submit(scene(2));
+  const auto wrong = accelerator_.wait();
   EXPECT_EQ(wrong.frame_id, first);
   EXPECT_EQ(wrong.fault, AcceleratorFault::kBadPacket);
   EXPECT_THAT(wrong.detail, HasSubstr("1 frames of 2"));
-  const auto lost = accelerator.wait();
+  const auto lost = accelerator_.wait();
   EXPECT_EQ(lost.frame_id, second);
   EXPECT_EQ(lost.fault, AcceleratorFault::kHang);
   EXPECT_THAT(lost.detail, HasSubstr("lost"));
-  accelerator.submit(scene(3));
-  EXPECT_EQ(accelerator.wait().fault, AcceleratorFault::kNone);
+  accelerator_.submit(scene(3));
+  EXPECT_EQ(accelerator_.wait().fault, AcceleratorFault::kNone);
 }
 
 TEST(RtlBackend, AnswersAsFixedWhateverTheDeviceDoes) {
