@@ -4,6 +4,8 @@
 
 #include <cstring>
 
+#include "colonnade/base/vector_kernel.hpp"
+
 namespace colonnade {
 namespace {
 
@@ -52,22 +54,11 @@ inline __attribute__((always_inline)) void add(double* C, std::ptrdiff_t columns
   if (column < columns) addColumns<1>(C + column * kPanelRows, A, B + column, stride_b, depth);
 }
 
-#if defined(__x86_64__)
-__attribute__((target("avx2"))) void addWithAvx2(double* C, std::ptrdiff_t columns, const double* A,
-                                                 const double* B, std::ptrdiff_t stride_b,
-                                                 std::ptrdiff_t depth) {
-  add(C, columns, A, B, stride_b, depth);
-}
-#endif
-
 }  // namespace
 
+COLONNADE_VECTOR_KERNEL
 void addPanelProduct(double* C, std::ptrdiff_t columns, const double* A, const double* B,
                      std::ptrdiff_t stride_b, std::ptrdiff_t depth) {
-#if defined(__x86_64__)
-  static const bool has_avx2 = __builtin_cpu_supports("avx2") != 0;
-  if (has_avx2) return addWithAvx2(C, columns, A, B, stride_b, depth);
-#endif
   add(C, columns, A, B, stride_b, depth);
 }
 

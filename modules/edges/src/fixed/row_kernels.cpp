@@ -5,16 +5,11 @@
 #include <algorithm>
 #include <cstring>
 
+#include "colonnade/base/vector_kernel.hpp"
 #include "colonnade/edges/angle_table.hpp"
 
 // Plain loops over rows that the compiler turns into vectors, for wider vectors where the machine
 // has them. Integers only: every variant gives the same bits.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
-    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#define COLONNADE_VECTOR_KERNEL __attribute__((target_clones("arch=x86-64-v3", "default")))
-#else
-#define COLONNADE_VECTOR_KERNEL
-#endif
 
 namespace colonnade::fixed {
 

@@ -1,0 +1,13 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// Before a function of plain loops: compiled for wider vectors as well, which run where the
+/// processor has them. The bits stay the same, since -ffp-contract=off keeps products and sums
+/// apart. Sanitizers do not go with functions chosen at load time.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
+    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#define COLONNADE_VECTOR_KERNEL __attribute__((target_clones("arch=x86-64-v3", "default")))
+#else
+#define COLONNADE_VECTOR_KERNEL
+#endif

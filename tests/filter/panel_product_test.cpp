@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "panel_product.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <random>
+#include <vector>
+
+namespace colonnade {
+namespace {
+
+/// Whatever the processor: each entry's products are added in their order, then the sum.
+TEST(PanelProduct, GivesTheBitsOfSumsTakenOneByOne) {
+  std::mt19937 random(3);
+  std::normal_distribution<double> noise;
+  const auto numbers = [&](std::ptrdiff_t count) {
+    std::vector<double> values(static_cast<std::size_t>(count));
+    for (double& value : values) value = noise(random);
+    return values;
+  };
+  const auto at = [](std::ptrdiff_t i) { return static_cast<std::size_t>(i); };
+  for (const std::ptrdiff_t columns : {1, 2, 33}) {
+    for (const std::ptrdiff_t depth : {0, 1, 33}) {
+      const std::ptrdiff_t stride = columns + 5;
+      const auto A = numbers(kPanelRows * depth), B = numbers(stride * depth);
+      auto C = numbers(kPanelRows * columns);
+      auto expected = C;
+      for (std::ptrdiff_t c = 0; c < columns; ++c) {
+        for (std::ptrdiff_t r = 0; r < kPanelRows; ++r) {
+          double sum = 0.0;
+          for (std::ptrdiff_t k = 0; k < depth; ++k)
+            sum += A[at(k * kPanelRows + r)] * B[at(k * stride + c)];
+          expected[at(c * kPanelRows + r)] += sum;
+        }
+      }
+      addPanelProduct(C.data(), columns, A.data(), B.data(), stride, depth);
+      EXPECT_EQ(C, expected) << columns << " columns, depth " << depth;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace colonnade
