@@ -97,6 +97,10 @@ void describe(const RangeBearingSession& session, nlohmann::ordered_json& json) 
                          {"associated", score.associated},
                          {"right", score.right},
                          {"right_share", score.rightShare()}};
+  if (const auto& smoothed = session.smoothed())
+    json["smoothing"] = {{"converged", smoothed->how.converged},
+                         {"steps", smoothed->how.steps},
+                         {"readings_left_out", smoothed->how.unused}};
 }
 
 /// Poses as they are known at the end, where a session keeps them.
@@ -106,7 +110,9 @@ Trajectory finalTrajectory(const Session& session) {
     trajectory.push_back({stamp_s, T_world_robot.toIsometry3()});
   return trajectory;
 }
-Trajectory finalTrajectory(const RangeBearingSession&) { return {}; }
+Trajectory finalTrajectory(const RangeBearingSession& session) {
+  return session.smoothed() ? session.smoothed()->trajectory : Trajectory{};
+}
 
 /// What a later run needs to go on from this map.
 void writeMapToGoOn(const fs::path& folder, const Session& session) {

@@ -43,6 +43,19 @@ Pose2 compose(const Pose2& T_a_b, const Pose2& T_b_c, Eigen::Matrix3d* J_a_b,
   return {T_a_b.x + rotated.x(), T_a_b.y + rotated.y(), wrapAngle(T_a_b.phi + T_b_c.phi)};
 }
 
+Eigen::Matrix2d spreadOverTurn(double turn) {
+  // Taylor approximation below 1e-4 rad: the next terms are turn^4 / 120 and turn^3 / 24.
+  const bool small = std::abs(turn) < 1e-4;
+  const double s = small ? 1.0 - turn * turn / 6.0 : std::sin(turn) / turn;
+  const double c = small ? 0.5 * turn : (1.0 - std::cos(turn)) / turn;
+  return (Eigen::Matrix2d() << s, -c, c, s).finished();
+}
+
+Pose2 exponential(const Eigen::Vector3d& xi) {
+  const Eigen::Vector2d t = spreadOverTurn(xi(2)) * xi.head<2>();
+  return {t.x(), t.y(), wrapAngle(xi(2))};
+}
+
 Eigen::Vector2d transform(const Pose2& T_a_b, const Eigen::Vector2d& p_b,
                           Eigen::Matrix<double, 2, 3>* J_pose, Eigen::Matrix2d* J_point) {
   const Eigen::Matrix2d R = T_a_b.rotation();

@@ -21,17 +21,6 @@ void wrapDirections(State& state) {
   }
 }
 
-/// The left Jacobian of SE(2): what a displacement becomes when it is spread over a turn (Sola et
-/// al., arXiv 1812.01537, eq. 158). Without it a point that should stay where it is, because turn
-/// and displacement cancel, creeps towards the origin by half the squared turn in every step.
-Eigen::Matrix2d spreadOverTurn(double turn) {
-  // Taylor approximation below 1e-4 rad: the next terms are turn^4 / 120 and turn^3 / 24.
-  const bool small = std::abs(turn) < 1e-4;
-  const double s = small ? 1.0 - turn * turn / 6.0 : std::sin(turn) / turn;
-  const double c = small ? 0.5 * turn : (1.0 - std::cos(turn)) / turn;
-  return (Eigen::Matrix2d() << s, -c, c, s).finished();
-}
-
 /// x <- exp(xi) x: the whole world turned about its origin by dx's heading, with what the turn does
 /// not explain, dx - G(x) dphi, spread over it.
 void retractInvariant(State& state, const Eigen::VectorXd& dx) {

@@ -151,9 +151,16 @@ RangeBearingReport RangeBearingEstimator::step(double stamp_s, const MotionIncre
   report.events = decisions.events;
   report.landmarks.assign(scan.readings.size(), std::nullopt);
   report.founded.assign(scan.readings.size(), false);
+  report.measurements.assign(scan.readings.size(), std::nullopt);
+  report.motion_covariance = motion.covariance;
+  for (const Event& event : report.events)
+    if (event.what == "lost") report.motion_covariance += lostCovariance();
   for (std::size_t i = 0; i < places.size(); ++i) {
     report.landmarks[places[i]] = decisions.landmarks.front()[i];
     report.founded[places[i]] = decisions.founded[i];
+    Measurement measurement = frame.readings[i].measurement;
+    measurement.R *= frame.noise_scale;
+    report.measurements[places[i]] = measurement;
   }
   for (std::size_t h = 0; h < self.hypotheses.size(); ++h) {
     std::vector<std::optional<LandmarkId>> all(scan.readings.size());

@@ -31,6 +31,10 @@ std::string described(int identity) {
 
 }  // namespace
 
+Eigen::Matrix3d lostCovariance() {
+  return Eigen::Vector3d(kLostSigma_m, kLostSigma_m, kLostSigma).cwiseAbs2().asDiagonal();
+}
+
 RangeBearingHypothesis::RangeBearingHypothesis(const RangeBearingOptions& options,
                                                const FilterOptions& filter_options)
     : filter(withGate(filter_options, options)), options_(&options) {}
@@ -120,8 +124,7 @@ void RangeBearingHypothesis::strike(LandmarkId landmark, const ReadingFrame& fra
                                    [&](const LandmarkId id) { return id != landmark; });
   if (several && refused_in_a_row_.size() >= kLostAfterRefusals) {
     refused_in_a_row_.clear();
-    filter.predict(
-        {}, Eigen::Vector3d(kLostSigma_m, kLostSigma_m, kLostSigma).cwiseAbs2().asDiagonal());
+    filter.predict({}, lostCovariance());
     events.push_back({frame.stamp_s, frame.index, "lost", std::nullopt,
                       "all readings in a row refused: the pose is in doubt"});
     return;

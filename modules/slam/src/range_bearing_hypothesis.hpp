@@ -29,6 +29,9 @@ struct ReadingFrame {
   std::vector<LandmarkReading> readings;
 };
 
+/// What a robot is in doubt by that every landmark disagrees with (event `lost`).
+Eigen::Matrix3d lostCovariance();
+
 /// One way to explain all readings so far: an estimate, and which landmark bears which identity.
 class RangeBearingHypothesis {
  public:

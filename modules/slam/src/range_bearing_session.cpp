@@ -11,7 +11,9 @@ namespace colonnade {
 
 RangeBearingSession::RangeBearingSession(const RangeBearingOptions& options,
                                          const FilterOptions& filter, const MotionOptions& motion)
-    : estimator_(options, filter), motion_(motion, std::make_shared<CameraTracker>(motion)) {}
+    : options_(options),
+      estimator_(options, filter),
+      motion_(motion, std::make_shared<CameraTracker>(motion)) {}
 
 void RangeBearingSession::run(FrameSource& source, const Observer& observer) {
   Stopwatch watch;
@@ -22,15 +24,19 @@ void RangeBearingSession::run(FrameSource& source, const Observer& observer) {
     report.times_ms.motion = watch.lap();
     const RangeBearingScan scan = frame->range_bearing.value_or(RangeBearingScan{});
     for (const RangeBearing& reading : scan.readings) identities_.push_back(reading.id);
-    report.events = estimator_.step(frame->stamp_s, report.motion, scan).events;
+    const RangeBearingReport seen = estimator_.step(frame->stamp_s, report.motion, scan);
+    report.events = seen.events;
+    if (options_.smooth)
+      record_.add(frame->stamp_s, report.motion, scan, seen, estimator_.pose());
     report.times_ms.filter = watch.lap();
-    if (!observer(*frame, report, *this)) return;
+    if (!observer(*frame, report, *this)) break;
     watch.lap();  // what the observer does is no stage of the session
   }
+  if (options_.smooth) smoothed_ = record_.smoothed(estimator_, options_);
 }
 
 LandmarkMap RangeBearingSession::map() const {
-  LandmarkMap map = estimator_.map();
+  LandmarkMap map = smoothed_ ? smoothed_->map : estimator_.map();
   LandmarkMap named = map;
   for (LandmarkRecord& landmark : named) {
     const auto identity = estimator_.identityOf(landmark.id);

@@ -24,6 +24,7 @@ struct RangeBearingOptions {
   double error_correlation_s = 0.0;
   bool wait_for_landmark = false;
   bool world_with_map = true;
+  bool smooth = true;
   int hypotheses = 40;
   double outlier_share = 0.03;
   double birth_share = 0.01;
@@ -61,6 +62,9 @@ struct RangeBearingOptions {
     v.flag("world_with_map", world_with_map,
            "when a correction moves the whole map, move the world along; false: the world starts "
            "where the log does");
+    v.flag("smooth", smooth,
+           "at the end find the poses and landmarks that suit the whole log best "
+           "(trajectory_final.tum, landmarks.csv)");
     v.integer("hypotheses", hypotheses, {1, 1000}, "joint histories kept side by side");
     v.number("outlier_share", outlier_share, {1e-6, 0.5}, "of the readings (hypotheses)");
     v.number("birth_share", birth_share, {1e-9, 0.5},

@@ -3,17 +3,19 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "colonnade/frames/frame_source.hpp"
 #include "colonnade/motion/motion_estimator.hpp"
+#include "colonnade/slam/drive_record.hpp"
 #include "colonnade/slam/range_bearing_estimator.hpp"
 #include "colonnade/slam/session.hpp"
 
 namespace colonnade {
 
 /// The main loop for logs without images: frames of landmark readings in, an estimate out; shaped
-/// like Session.
+/// like Session. At the end the whole drive is smoothed (RangeBearing.smooth).
 class RangeBearingSession {
  public:
   /// Throws Error (kUsage) for options that contradict each other.
@@ -26,7 +28,9 @@ class RangeBearingSession {
 
   const EkfSlam& filter() const { return estimator_.filter(); }
   const RangeBearingEstimator& estimator() const { return estimator_; }
-  /// Where the log's identities are believed and every landmark has one, they are the ids of the
+  /// What the whole log says, once run() is over; nothing with RangeBearing.smooth off.
+  const std::optional<DriveRecord::Smoothed>& smoothed() const { return smoothed_; }
+  /// Smoothed, once it is. Where the log's identities are believed and every landmark has one, they are the ids of the
   /// map; otherwise those of the filter.
   LandmarkMap map() const;
   std::size_t axisCount() const { return 0; }
@@ -34,8 +38,11 @@ class RangeBearingSession {
   IdentityScore identityScore() const;
 
  private:
+  RangeBearingOptions options_;
   RangeBearingEstimator estimator_;
   MotionEstimator motion_;
+  DriveRecord record_;
+  std::optional<DriveRecord::Smoothed> smoothed_;
   std::vector<int> identities_;  ///< of all readings so far
 };
 

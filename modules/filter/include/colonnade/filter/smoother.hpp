@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <vector>
+
+#include "colonnade/base/measurement.hpp"
+#include "colonnade/base/pose2.hpp"
+
+namespace colonnade {
+
+/// A whole drive past point landmarks.
+struct Drive {
+  /// How the robot moved from the pose before to this one.
+  struct Motion {
+    Pose2 T_previous_robot;
+    Eigen::Matrix3d covariance;  ///< (x, y, phi) in the former robot's axes
+  };
+  struct Sighting {
+    std::size_t pose = 0;
+    std::size_t point = 0;
+    Measurement measurement;
+    bool used = true;  ///< false: too far off to be of this point
+  };
+  std::vector<Pose2> T_world_robot;  ///< one for each frame
+  std::vector<Motion> motions;       ///< as many as poses; the first has no say
+  std::vector<Eigen::Vector2d> points_world;
+  std::vector<Sighting> sightings;
+};
+
+struct Smoothing {
+  bool converged = false;
+  int steps = 0;
+  std::size_t unused = 0;  ///< sightings
+  /// Sum of squared Mahalanobis distances, of sightings their Huber loss and for an unused one the
+  /// bound of the gate.
+  double cost = 0.0;
+  /// Of each point, square metres, given the first pose; empty for more than 500 points.
+  std::vector<Eigen::Matrix2d> point_covariances;
+};
+
+/// The likeliest poses and points of a drive given all of its motions and sightings, found from
+/// those it holds: nonlinear least squares (Dellaert and Kaess, Square Root SAM, International
+/// Journal of Robotics Research 25(12), 2006) with Levenberg's damping. Unlike a filter's estimate
+/// every derivative is taken at the result and later sightings correct earlier poses. The first
+/// pose stays. Sightings off by more than what one in a hundred is off by pull with Huber's loss;
+/// those outside the gate of `gate_probability` at the end are marked unused and the rest is solved
+/// again. Throws nothing; a drive without a sighting is left as it is.
+Smoothing smooth(Drive& drive, double gate_probability);
+
+}  // namespace colonnade

@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "normal_equations.hpp"
+
+#include <Eigen/LU>
+#include <cmath>
+
+#include "colonnade/base/angle.hpp"
+#include "colonnade/filter/gate.hpp"
+
+namespace colonnade {
+namespace {
+
+constexpr double kHuberProbability = 0.99;
+/// A standing robot states no noise at all; its poses are tied to within this.
+constexpr double kStandingSigma = 1e-5;  ///< m and rad
+/// Keeps a point that was only seen along one ray where it is.
+constexpr double kLooseSigma_m = 100.0;
+
+PredictedMeasurement predicted(const Drive& drive, const Drive::Sighting& sighting) {
+  return predictMeasurement(drive.T_world_robot[sighting.pose], BlockKind::kPoint,
+                            drive.points_world[sighting.point], sighting.measurement);
+}
+
+Eigen::Vector3d motionResidual(const Drive& drive, std::size_t pose) {
+  const Pose2 moved = drive.T_world_robot[pose - 1].inverse() * drive.T_world_robot[pose];
+  Eigen::Vector3d residual = moved.vector() - drive.motions[pose].T_previous_robot.vector();
+  residual(2) = wrapAngle(residual(2));
+  return residual;
+}
+
+Eigen::Matrix3d informationOf(const Drive::Motion& motion) {
+  const Eigen::Matrix3d standing = kStandingSigma * kStandingSigma * Eigen::Matrix3d::Identity();
+  return (motion.covariance + standing).inverse();
+}
+
+/// How (x, y, phi) of a pose moves with xi.
+Eigen::Matrix3d liftOf(const Pose2& T_world_robot) {
+  Eigen::Matrix3d lift = Eigen::Matrix3d::Identity();
+  lift.col(2).head<2>() << -T_world_robot.y, T_world_robot.x;
+  return lift;
+}
+
+}  // namespace
+
+NormalEquations::NormalEquations(const Drive& drive)
+    : poses_(static_cast<Eigen::Index>(drive.T_world_robot.size())),
+      g_(Eigen::VectorXd::Zero(pointAt(drive.points_world.size()))) {
+  entries_.reserve(27 * drive.motions.size() + 33 * drive.sightings.size());
+  for (std::size_t k = 1; k < drive.T_world_robot.size(); ++k) addMotion(drive, k);
+  for (const Drive::Sighting& sighting : drive.sightings)
+    if (sighting.used) addSighting(drive, sighting);
+  for (Eigen::Index i = pointAt(0); i < g_.size(); ++i)
+    entries_.emplace_back(i, i, 1.0 / (kLooseSigma_m * kLooseSigma_m));
+}
+
+Eigen::SparseMatrix<double> NormalEquations::H() const {
+  Eigen::SparseMatrix<double> H(g_.size(), g_.size());
+  H.setFromTriplets(entries_.begin(), entries_.end());
+  return H;
+}
+
+void NormalEquations::addMotion(const Drive& drive, std::size_t pose) {
+  const Drive::Motion& motion = drive.motions[pose];
+  const Eigen::Vector3d residual = motionResidual(drive, pose);
+  Eigen::Matrix3d J = Eigen::Matrix3d::Identity();
+  J.topLeftCorner<2, 2>() = drive.T_world_robot[pose - 1].rotation().transpose();
+  J = (J * liftOf(drive.T_world_robot[pose])).eval();
+  const Eigen::Matrix3d weight = informationOf(motion);
+  cost_ += residual.dot(weight * residual);
+  addPair(poseAt(pose - 1), poseAt(pose), -J, J, weight, residual);
+}
+
+void NormalEquations::addSighting(const Drive& drive, const Drive::Sighting& sighting) {
+  const auto expected = predicted(drive, sighting);
+  const Eigen::VectorXd residual = -innovationOf(sighting.measurement, expected.z);
+  const Eigen::MatrixXd information = sighting.measurement.R.inverse();
+  const double distance = std::sqrt(residual.dot(information * residual));
+  const double bound =
+      std::sqrt(chiSquareQuantile(kHuberProbability, static_cast<int>(residual.size())));
+  const bool far = distance > bound;
+  cost_ += far ? bound * (2.0 * distance - bound) : distance * distance;
+  const Eigen::MatrixXd weight = (far ? bound / distance : 1.0) * information;
+  addPair(poseAt(sighting.pose), pointAt(sighting.point),
+          expected.H_robot * liftOf(drive.T_world_robot[sighting.pose]), expected.H_block, weight,
+          residual);
+}
+
+void NormalEquations::addBlock(Eigen::Index row, Eigen::Index column,
+                               const Eigen::MatrixXd& block) {
+  if (row < 0 || column < 0) return;  // the first pose
+  for (Eigen::Index i = 0; i < block.rows(); ++i)
+    for (Eigen::Index k = 0; k < block.cols(); ++k)
+      entries_.emplace_back(row + i, column + k, block(i, k));
+}
+
+void NormalEquations::addPair(Eigen::Index a, Eigen::Index b, const Eigen::MatrixXd& J_a,
+                              const Eigen::MatrixXd& J_b,
+                              const Eigen::MatrixXd& weight, const Eigen::VectorXd& residual) {
+  const Eigen::MatrixXd mixed = J_a.transpose() * weight * J_b;
+  addBlock(a, a, J_a.transpose() * weight * J_a);
+  addBlock(b, b, J_b.transpose() * weight * J_b);
+  addBlock(a, b, mixed);
+  addBlock(b, a, mixed.transpose());
+  if (a >= 0) g_.segment(a, J_a.cols()) += J_a.transpose() * weight * residual;
+  if (b >= 0) g_.segment(b, J_b.cols()) += J_b.transpose() * weight * residual;
+}
+
+void move(Drive& drive, const NormalEquations& at, const Eigen::VectorXd& dx) {
+  for (std::size_t k = 1; k < drive.T_world_robot.size(); ++k)
+    drive.T_world_robot[k] = exponential(dx.segment<3>(at.poseAt(k))) * drive.T_world_robot[k];
+  for (std::size_t i = 0; i < drive.points_world.size(); ++i)
+    drive.points_world[i] += dx.segment<2>(at.pointAt(i));
+}
+
+double motionDistance2(const Drive& drive, std::size_t pose) {
+  const Eigen::Vector3d residual = motionResidual(drive, pose);
+  return residual.dot(informationOf(drive.motions[pose]) * residual);
+}
+
+double distance2(const Drive& drive, const Drive::Sighting& sighting) {
+  const Eigen::VectorXd nu =
+      innovationOf(sighting.measurement, predicted(drive, sighting).z);
+  return nu.dot(sighting.measurement.R.inverse() * nu);
+}
+
+}  // namespace colonnade

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <vector>
+
+#include "colonnade/filter/measurement_models.hpp"
+#include "colonnade/filter/smoother.hpp"
+
+namespace colonnade {
+
+/// H dx = -g of a drive's least squares about the estimate it holds, and the cost there: the sum of
+/// squared Mahalanobis distances, for sightings in Huber's loss. dx has three entries for each pose
+/// but the first, xi of Exp(xi) T_world_robot, and two for each point, metres added to it. With xi
+/// on the world's side a stretch of the way turns as a whole without any change to the motions
+/// along it, however stiff those are and however far it turns.
+class NormalEquations {
+ public:
+  explicit NormalEquations(const Drive& drive);
+
+  Eigen::Index poseAt(std::size_t pose) const { return 3 * (static_cast<Eigen::Index>(pose) - 1); }
+  Eigen::Index pointAt(std::size_t point) const {
+    return 3 * (poses_ - 1) + 2 * static_cast<Eigen::Index>(point);
+  }
+  Eigen::SparseMatrix<double> H() const;
+  const Eigen::VectorXd& g() const { return g_; }
+  double cost() const { return cost_; }
+
+ private:
+  void addMotion(const Drive& drive, std::size_t pose);
+  void addSighting(const Drive& drive, const Drive::Sighting& sighting);
+  void addBlock(Eigen::Index row, Eigen::Index column, const Eigen::MatrixXd& block);
+  void addPair(Eigen::Index a, Eigen::Index b, const Eigen::MatrixXd& J_a,
+               const Eigen::MatrixXd& J_b, const Eigen::MatrixXd& weight,
+               const Eigen::VectorXd& residual);
+
+  Eigen::Index poses_;
+  std::vector<Eigen::Triplet<double>> entries_;
+  Eigen::VectorXd g_;
+  double cost_ = 0.0;
+};
+
+/// The drive's estimate moved by dx.
+void move(Drive& drive, const NormalEquations& at, const Eigen::VectorXd& dx);
+
+/// Squared Mahalanobis distances of the motion up to a pose (not the first) and of a sighting.
+double motionDistance2(const Drive& drive, std::size_t pose);
+double distance2(const Drive& drive, const Drive::Sighting& sighting);
+
+}  // namespace colonnade

@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "colonnade/base/trajectory.hpp"
+#include "colonnade/filter/smoother.hpp"
+#include "colonnade/slam/range_bearing_estimator.hpp"
+
+namespace colonnade {
+
+/// Everything a range-bearing session was told and estimated, frame by frame, so that the whole
+/// drive can be smoothed once it is over.
+class DriveRecord {
+ public:
+  /// One frame, after the estimator's step.
+  void add(double stamp_s, const MotionIncrement& motion, const RangeBearingScan& scan,
+           const RangeBearingReport& report, const Pose2& T_world_robot);
+
+  struct Smoothed {
+    Trajectory trajectory;
+    LandmarkMap map;
+    Smoothing how;
+  };
+  /// The drive past the landmarks the estimator knows at the end, with its last word on which
+  /// reading is of which; readings whose identity is believed are of its bearer. The map is the
+  /// estimator's with places, extents and covariances as smoothed; where the whole map moved, it is
+  /// put back where the estimator has it.
+  Smoothed smoothed(const RangeBearingEstimator& estimator,
+                    const RangeBearingOptions& options) const;
+
+ private:
+  struct Reading {
+    std::size_t frame = 0;
+    int identity = -1;
+    std::optional<Measurement> measurement;
+  };
+  std::vector<double> stamps_s_;
+  std::vector<Pose2> T_world_robot_;
+  std::vector<Drive::Motion> motions_;
+  std::vector<Reading> readings_;
+};
+
+}  // namespace colonnade

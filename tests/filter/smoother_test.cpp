@@ -1,0 +1,195 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "colonnade/filter/smoother.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <cmath>
+#include <random>
+
+#include "colonnade/base/angle.hpp"
+#include "normal_equations.hpp"
+
+namespace colonnade {
+namespace {
+
+constexpr double kRangeSigma_m = 0.05;
+constexpr double kBearingSigma = radians(1.0);
+constexpr double kGate = 0.999999;
+
+struct SimulatedDrive {
+  Drive truth;  ///< its motions and sightings are noisy
+  Drive start;  ///< as dead reckoning and each point's first sighting have it
+};
+
+/// Two rounds among posts, on a circle; turns on the spot now and then.
+SimulatedDrive simulatedDrive(unsigned seed, bool ranged = true, double noise = 1.0) {
+  std::mt19937 random(seed);
+  const auto gauss = [&](double sigma) {
+    return noise * std::normal_distribution<double>(0.0, sigma)(random);
+  };
+  SimulatedDrive drive;
+  for (int i = 0; i < 12; ++i) {
+    const double angle = 2.0 * kPi * i / 12.0;
+    const double radius = i % 2 == 0 ? 5.0 : 2.0;
+    drive.truth.points_world.emplace_back(radius * std::cos(angle), 3.0 + radius * std::sin(angle));
+  }
+  std::vector<bool> seen(drive.truth.points_world.size(), false);
+  drive.start.points_world.resize(seen.size());
+  Pose2 truth, reckoned;
+  for (std::size_t k = 0; k < 240; ++k) {
+    Drive::Motion motion{{}, Eigen::Matrix3d::Zero()};
+    if (k > 0) {
+      const Pose2 way = k % 40 == 0 ? Pose2{0.0, 0.0, 0.3} : Pose2{0.15, 0.0, 0.0425};
+      const Eigen::Vector3d sigma(0.015, 0.008, 0.012);
+      truth = truth * way;
+      motion.T_previous_robot = {way.x + gauss(sigma(0)), way.y + gauss(sigma(1)),
+                                 way.phi + gauss(sigma(2))};
+      motion.covariance = sigma.cwiseAbs2().asDiagonal();
+      reckoned = reckoned * motion.T_previous_robot;
+    }
+    drive.truth.motions.push_back(motion);
+    drive.truth.T_world_robot.push_back(truth);
+    drive.start.T_world_robot.push_back(reckoned);
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+      const Eigen::Vector2d p = transform(truth.inverse(), drive.truth.points_world[i]);
+      const double bearing = std::atan2(p.y(), p.x());
+      if (p.norm() > 5.0 || std::abs(bearing) > 1.0) continue;
+      Measurement m;
+      m.z.resize(ranged ? 2 : 1);
+      m.R.setZero(m.z.size(), m.z.size());
+      m.z(0) = bearing + gauss(kBearingSigma);
+      m.R(0, 0) = kBearingSigma * kBearingSigma;
+      if (ranged) {
+        m.z(1) = p.norm() + gauss(kRangeSigma_m);
+        m.R(1, 1) = kRangeSigma_m * kRangeSigma_m;
+      }
+      drive.truth.sightings.push_back({k, i, m});
+      if (seen[i]) continue;
+      seen[i] = true;
+      const double range = ranged ? m.z(1) : 3.0;
+      drive.start.points_world[i] =
+          transform(reckoned, range * Eigen::Vector2d(std::cos(m.z(0)), std::sin(m.z(0))));
+    }
+  }
+  drive.start.motions = drive.truth.motions;
+  drive.start.sightings = drive.truth.sightings;
+  return drive;
+}
+
+double poseError(const Drive& drive, const Drive& truth) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < truth.T_world_robot.size(); ++k)
+    sum += (drive.T_world_robot[k].translation() - truth.T_world_robot[k].translation())
+               .squaredNorm();
+  return std::sqrt(sum / static_cast<double>(truth.T_world_robot.size()));
+}
+
+TEST(NormalEquations, GradientIsHalfTheNumericOneOfTheCost) {
+  SimulatedDrive drive = simulatedDrive(3);
+  Drive& here = drive.start;
+  here.sightings[5].measurement.z(0) += 0.4;  // one with Huber's loss
+  const NormalEquations at(here);
+  constexpr double kStep = 1e-6;
+  for (Eigen::Index i = 0; i < at.g().size(); i += 17) {
+    Drive above = here, below = here;
+    const Eigen::VectorXd dx = kStep * Eigen::VectorXd::Unit(at.g().size(), i);
+    move(above, at, dx);
+    move(below, at, -dx);
+    const double numeric =
+        (NormalEquations(above).cost() - NormalEquations(below).cost()) / (4.0 * kStep);
+    EXPECT_NEAR(at.g()(i), numeric, 1e-5 * (1.0 + at.g().cwiseAbs().maxCoeff())) << i;
+  }
+}
+
+TEST(NormalEquations, ACommonMotionOfAllPosesChangesNoMotion) {
+  Drive drive = simulatedDrive(4).start;
+  drive.sightings.clear();
+  const double before = NormalEquations(drive).cost();
+  const Pose2 T = exponential({0.7, -2.0, 1.1});
+  for (Pose2& pose : drive.T_world_robot) pose = T * pose;
+  EXPECT_NEAR(NormalEquations(drive).cost(), before, 1e-6);
+}
+
+TEST(Smoother, FindsTheTruthFromPerfectReadingsAndAWrongStart) {
+  SimulatedDrive drive = simulatedDrive(5, true, 0.0);
+  Drive& estimate = drive.start;
+  Pose2 off;
+  for (Pose2& pose : estimate.T_world_robot) {  // a bend of 100 degrees over the whole way
+    off = exponential({0.002, -0.003, radians(100.0) / 240.0}) * off;
+    pose = off * pose;
+  }
+  estimate.T_world_robot.front() = {};
+  EXPECT_GT(poseError(estimate, drive.truth), 1.0);
+  const Smoothing result = smooth(estimate, kGate);
+  EXPECT_TRUE(result.converged);
+  EXPECT_EQ(result.unused, 0u);
+  EXPECT_LT(poseError(estimate, drive.truth), 1e-3);
+  for (std::size_t i = 0; i < drive.truth.points_world.size(); ++i)
+    EXPECT_LT((estimate.points_world[i] - drive.truth.points_world[i]).norm(), 1e-3) << i;
+}
+
+TEST(Smoother, HalvesTheErrorOfDeadReckoningWithBearingsAlone) {
+  double before = 0.0, after = 0.0;
+  for (unsigned seed = 11; seed < 21; ++seed) {
+    SimulatedDrive drive = simulatedDrive(seed, false);
+    before += poseError(drive.start, drive.truth);
+    const Smoothing result = smooth(drive.start, kGate);
+    after += poseError(drive.start, drive.truth);
+    EXPECT_TRUE(result.converged);
+    // No better explanation was missed: the truth is none, but for what was fitted to the noise.
+    EXPECT_LT(result.cost, NormalEquations(drive.truth).cost()) << seed;
+  }
+  EXPECT_LT(after, 0.5 * before);
+}
+
+TEST(Smoother, CovariancesOfThePointsAreHonest) {
+  double sum = 0.0;
+  int count = 0;
+  for (unsigned seed = 100; seed < 140; ++seed) {
+    SimulatedDrive drive = simulatedDrive(seed);
+    const Smoothing result = smooth(drive.start, 1.0);
+    for (std::size_t i = 0; i < drive.truth.points_world.size(); ++i) {
+      const Eigen::Vector2d error = drive.start.points_world[i] - drive.truth.points_world[i];
+      sum += error.dot(result.point_covariances[i].inverse() * error) / 2.0;
+      ++count;
+    }
+  }
+  // Points of one drive err together: 40 drives, about two free directions each.
+  EXPECT_GT(sum / count, 0.7);
+  EXPECT_LT(sum / count, 1.35);
+}
+
+TEST(Smoother, LeavesWrongReadingsOut) {
+  SimulatedDrive drive = simulatedDrive(6);
+  std::size_t wrong = 0;
+  for (std::size_t i = 7; i < drive.start.sightings.size(); i += 25, ++wrong)
+    drive.start.sightings[i].point = (drive.start.sightings[i].point + 3) % 12;
+  SimulatedDrive clean = simulatedDrive(6);
+  smooth(clean.start, kGate);
+  const Smoothing result = smooth(drive.start, kGate);
+  EXPECT_NEAR(static_cast<double>(result.unused), static_cast<double>(wrong), 2.0);
+  EXPECT_LT(poseError(drive.start, drive.truth), 1.3 * poseError(clean.start, clean.truth));
+}
+
+TEST(Smoother, AStandingRobotWithoutNoiseIsNoDivisionByZero) {
+  SimulatedDrive drive = simulatedDrive(7);
+  for (std::size_t k = 100; k < 120; ++k) drive.start.motions[k] = {{}, Eigen::Matrix3d::Zero()};
+  smooth(drive.start, 1.0);
+  for (std::size_t k = 100; k < 120; ++k) {
+    const Pose2 moved = drive.start.T_world_robot[k - 1].inverse() * drive.start.T_world_robot[k];
+    EXPECT_LT(moved.vector().cwiseAbs().maxCoeff(), 1e-3);
+  }
+}
+
+TEST(Smoother, WithoutSightingsNothingMoves) {
+  Drive drive = simulatedDrive(8).start;
+  drive.sightings.clear();
+  const auto before = drive.T_world_robot;
+  EXPECT_FALSE(smooth(drive, kGate).converged);
+  EXPECT_EQ(before.back().x, drive.T_world_robot.back().x);
+}
+
+}  // namespace
+}  // namespace colonnade
