@@ -1,0 +1,166 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "colonnade/evaluation/trajectory_score.hpp"
+#include "colonnade/frames/mrclam_import.hpp"
+#include "colonnade/frames/rawlog_source.hpp"
+#include "colonnade/slam/range_bearing_session.hpp"
+#include "shared_data.hpp"
+#include "temporary_folder.hpp"
+
+namespace colonnade {
+namespace {
+
+struct Errors {
+  double online_m = 0.0;
+  double final_m = 0.0;
+};
+
+/// ATE of the poses of the moment and of those at the end.
+Errors errorsOf(FrameSource& source, const Trajectory& truth, const RangeBearingOptions& options) {
+  RangeBearingSession session(options, {}, {});
+  Trajectory online;
+  session.run(source, [&](const Frame& frame, const StepReport&, const auto& now) {
+    online.push_back({frame.stamp_s, now.estimator().pose().toIsometry3()});
+    return true;
+  });
+  EXPECT_TRUE(session.smoothed() && session.smoothed()->how.converged);
+  return {evaluateTrajectory(online, truth).ate_rmse_m,
+          evaluateTrajectory(session.smoothed()->trajectory, truth).ate_rmse_m};
+}
+
+/// A robot that drives two rounds in a ring of posts and sees those in front of it.
+class RingOfPosts : public FrameSource {
+ public:
+  explicit RingOfPosts(unsigned seed) : random_(seed) {}
+
+  std::optional<Frame> next() override {
+    if (truth.size() == 2 * kSteps) return std::nullopt;
+    const Pose2 way{0.2, 0.0, 2.0 * kPi / kSteps};
+    T_world_robot_ = T_world_robot_ * way;
+    T_world_odometry_ = T_world_odometry_ * Pose2{way.x * (1.0 + gauss(0.1)), gauss(0.004),
+                                                  way.phi + gauss(0.01)};
+    Frame frame;
+    frame.stamp_s = 0.5 * static_cast<double>(truth.size() + 1);
+    frame.odometry = OdometryReading{T_world_odometry_, {}};
+    frame.range_bearing.emplace();
+    frame.range_bearing->range_sigma_m = 0.05;
+    frame.range_bearing->yaw_sigma = radians(1.0);
+    for (int i = 0; i < 24; ++i) {
+      const double angle = 2.0 * kPi * i / 24.0, radius = i % 2 == 0 ? 5.5 : 2.0;
+      const Eigen::Vector2d p = transform(
+          T_world_robot_.inverse(),
+          Eigen::Vector2d(radius * std::sin(angle), kRadius_m - radius * std::cos(angle)));
+      const double bearing = std::atan2(p.y(), p.x());
+      if (p.norm() > 3.0 || std::abs(bearing) > 0.7) continue;
+      frame.range_bearing->readings.push_back(
+          {i + 1, p.norm() + gauss(0.05), bearing + gauss(radians(1.0)), 0.0, {}});
+    }
+    truth.push_back({frame.stamp_s, T_world_robot_.toIsometry3()});
+    return frame;
+  }
+  const Damage& damage() const override { return damage_; }
+  double progress() const override { return 0.0; }
+
+  Trajectory truth;
+
+ private:
+  static constexpr std::size_t kSteps = 120;
+  static constexpr double kRadius_m = 0.2 * kSteps / (2.0 * kPi);
+  double gauss(double sigma) { return std::normal_distribution<double>(0.0, sigma)(random_); }
+
+  std::mt19937 random_;
+  Pose2 T_world_robot_, T_world_odometry_;
+  Damage damage_;
+};
+
+TEST(RangeBearingSmoothing, TheWholeLogKnowsEarlierPosesBetter) {
+  for (const bool known : {true, false}) {
+    RangeBearingOptions options;
+    options.use_ids = known;
+    double online = 0.0, final = 0.0;
+    for (unsigned seed = 1; seed <= 5; ++seed) {
+      RingOfPosts source(seed);
+      RingOfPosts ahead(seed);
+      while (ahead.next()) continue;
+      const Errors errors = errorsOf(source, ahead.truth, options);
+      online += errors.online_m;
+      final += errors.final_m;
+    }
+    EXPECT_LT(final, 0.85 * online) << known;
+  }
+}
+
+TEST(RangeBearingSmoothing, MovesTheMapButNotItsNames) {
+  RingOfPosts source(3), again(3);
+  RangeBearingOptions options;
+  RangeBearingSession smoothed(options, {}, {});
+  options.smooth = false;
+  RangeBearingSession plain(options, {}, {});
+  smoothed.run(source, [](const auto&...) { return true; });
+  plain.run(again, [](const auto&...) { return true; });
+  EXPECT_FALSE(plain.smoothed());
+  const LandmarkMap a = smoothed.map(), b = plain.map();
+  ASSERT_EQ(a.size(), b.size());
+  double moved = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(a[i].id, b[i].id);
+    EXPECT_EQ(a[i].p_world, a[i].extent_a);
+    moved += (a[i].p_world - b[i].p_world).norm();
+    EXPECT_LT((a[i].p_world - b[i].p_world).norm(), 0.3);
+    EXPECT_GT(a[i].covariance.determinant(), 0.0);
+  }
+  EXPECT_GT(moved, 0.0);
+}
+
+TEST(RangeBearingSmoothing, ALogWithoutReadingsStaysAsItIs) {
+  class Nothing : public RingOfPosts {
+   public:
+    Nothing() : RingOfPosts(1) {}
+    std::optional<Frame> next() override {
+      auto frame = RingOfPosts::next();
+      if (frame) frame->range_bearing->readings.clear();
+      return frame;
+    }
+  } source;
+  RangeBearingSession session({}, {}, {});
+  Pose2 last;
+  session.run(source, [&](const Frame&, const StepReport&, const auto& now) {
+    last = now.estimator().pose();
+    return true;
+  });
+  ASSERT_TRUE(session.smoothed());
+  const auto& end = session.smoothed()->trajectory.back().T_world_body.translation();
+  EXPECT_EQ(end.x(), last.x);
+  EXPECT_TRUE(session.map().empty());
+}
+
+/// UTIAS MRCLAM data set 7: what the whole log says against the poses of the moment.
+TEST(RangeBearingSmoothing, RealRobots) {
+  COLONNADE_REQUIRE_RECORDING(folder, "mrclam7");
+  const testing::TemporaryFolder out;
+  for (const int robot : {1, 3, 5}) {
+    MrclamImportOptions import;
+    import.folder = folder;
+    import.robot = robot;
+    import.log = out.path() / ("robot" + std::to_string(robot) + ".rawlog");
+    importMrclam(import);
+    const Trajectory truth =
+        readTum(out.path() / ("robot" + std::to_string(robot) + "_ground_truth.tum"));
+    for (const bool bearing_only : {false, true}) {
+      RangeBearingOptions options;
+      options.bearing_only = bearing_only;
+      RawlogSource log(import.log);
+      const Errors errors = errorsOf(log, truth, options);
+      EXPECT_LT(errors.final_m, 0.95 * errors.online_m) << robot << bearing_only;
+      EXPECT_LT(errors.final_m, 0.15) << robot << bearing_only;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace colonnade
