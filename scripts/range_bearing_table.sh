@@ -7,14 +7,18 @@ set -eu
 data=$1 out=$2 build=${3:-build/release}
 colonnade=$build/apps/colonnade/colonnade
 mkdir -p "$out"
-figures() {  # ROBOT NAME TRAJECTORY LANDMARKS SUMMARY
+figures() {  # ROBOT NAME TRAJECTORY LANDMARKS SUMMARY FINAL_TRAJECTORY
+  smoothed="{}"
+  [ -z "${6:-}" ] || smoothed=$("$colonnade" evaluate "$6" --ground-truth "$out/robot$1_ground_truth.tum" \
+    --landmarks "$4" --truth-landmarks "$out/robot$1_landmarks.csv" --gate 2 --json)
   "$colonnade" evaluate "$3" --ground-truth "$out/robot$1_ground_truth.tum" \
-    ${4:+--landmarks "$4" --truth-landmarks "$out/robot$1_landmarks.csv"} --gate 2 --json |
+    --json |
     python3 -c '
 import json, math, sys
-robot, name, landmarks, truth, summary = sys.argv[1:]
-score = json.load(sys.stdin)
-T = score.get("trajectory", score)
+robot, name, landmarks, truth, summary, smoothed = sys.argv[1:]
+T, smoothed = json.load(sys.stdin), json.loads(smoothed)
+T = T.get("trajectory", T)
+final = "%.3f" % smoothed.get("trajectory", smoothed)["ate_rmse_m"] if smoothed else ""
 error = "|"
 if landmarks:
     rows = lambda f: [l.split(",") for l in open(f).read().split("\n")[1:] if l]
@@ -22,7 +26,7 @@ if landmarks:
     here = {int(r[0]): (float(r[2]), float(r[3])) for r in rows(landmarks)}
     ids = sorted(set(true) & set(here))
     if name.startswith("c"):
-        kind = score["landmarks"]["pillar"]
+        kind = smoothed["landmarks"]["pillar"]
         error = "%d | rmse %s" % (len(here), kind["position_rmse_m"] and round(kind["position_rmse_m"], 3))
     elif len(ids) > 1:  # rigid fit of the map onto the truth, by identity
         n = len(ids)
@@ -35,11 +39,11 @@ if landmarks:
 right = ""
 if summary:
     right = "%.1f %%" % (100 * json.load(open(summary))["association"]["right_share"])
-print("| %s | %s | %.3f | %.1f | %s | %s |" % (robot, name, T["ate_rmse_m"], T["heading_rmse_deg"], error, right))
-' "$1" "$2" "$4" "$out/robot$1_landmarks.csv" "$5"
+print("| %s | %s | %.3f | %s | %.1f | %s | %s |" % (robot, name, T["ate_rmse_m"], final, T["heading_rmse_deg"], error, right))
+' "$1" "$2" "$4" "$out/robot$1_landmarks.csv" "$5" "$smoothed"
 }
-echo "| robot | method | ATE [m] | heading [deg] | landmarks | their error, mean / largest [m] | right associations |"
-echo "|---|---|---|---|---|---|---|"
+echo "| robot | method | ATE [m] | ATE of trajectory_final [m] | heading [deg] | landmarks | their error, mean / largest [m] | right associations |"
+echo "|---|---|---|---|---|---|---|---|"
 for robot in 1 2 3 4 5; do
   log=$out/robot$robot.rawlog
   [ -e "$log" ] || "$colonnade" import mrclam "$data" --robot $robot -o "$log" >"$out/import$robot.txt" 2>/dev/null
@@ -51,7 +55,8 @@ for robot in 1 2 3 4 5; do
     esac
     folder=$out/$robot$method
     [ -e "$folder" ] || "$colonnade" run "$log" -o "$folder" --set $set >"$folder.txt" 2>&1
-    figures $robot "$name" "$folder/trajectory.tum" "$folder/landmarks.csv" "$folder/summary.json"
+    figures $robot "$name" "$folder/trajectory.tum" "$folder/landmarks.csv" "$folder/summary.json" \
+      "$folder/trajectory_final.tum"
   done
   "$build/tests/slam/kf_slam_log" "$log" "$out/$robot.tum" "$out/$robot.csv" 0.05 0.6
   figures $robot "e) MRPT kf-slam" "$out/$robot.tum" "$out/$robot.csv" ""
