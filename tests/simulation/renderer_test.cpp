@@ -77,6 +77,38 @@ TEST(Renderer, pixelsStayInPlaceWhateverTheSupersampling) {
   }
 }
 
+/// Corners are measured to 1e-4 of inverse depth, so what is rendered must be better than that.
+TEST(Renderer, inverseDepthHasNoOffset) {
+  REQUIRE_RENDERING();
+  for (const int width : {320, 640}) {
+    const auto world =
+        testing::roomWorld("camera width_px=" + std::to_string(width) +
+                           " height_px=" + std::to_string(width * 3 / 4) + " pitch_deg=12\n");
+    const auto building = buildBuilding(world);
+    Renderer renderer(world, building);
+    for (const double heading : {10.0, 40.0, 200.0}) {
+      const Eigen::Isometry3d T_world_camera =
+          Pose2(0.2, -0.1, radians(heading)).toIsometry3() * world.camera.T_robot_camera();
+      const auto view = renderer.render(T_world_camera);
+      double sum = 0.0;
+      int count = 0;
+      for (int row = 2; row < view.depth_m.rows; row += 5) {
+        for (int column = 2; column < view.depth_m.cols; column += 5) {
+          const double expected =
+              1.0 / rayCast(building, world.camera.pinhole(), T_world_camera, column, row);
+          const double off =
+              1.0 / static_cast<double>(view.depth_m.at<float>(row, column)) - expected;
+          if (!(std::abs(off) < 0.01 * expected)) continue;  // a silhouette
+          sum += off;
+          ++count;
+        }
+      }
+      ASSERT_GT(count, 1000);
+      EXPECT_NEAR(sum / count, 0.0, 5e-6) << width << " " << heading;
+    }
+  }
+}
+
 TEST(Renderer, floorDepthAgreesWithGeometry) {
   REQUIRE_RENDERING();
   for (const int factor : {2, 3}) {

@@ -18,6 +18,11 @@ namespace {
 constexpr float kNearM = 0.1F;
 constexpr float kFarM = 60.0F;
 
+/// MRPT makes depth linear with a table of 2^18 entries over [-1, 1], of which OpenGL uses the
+/// upper half, and cuts the place in it off: inverse depth comes in steps and is half of one too
+/// large.
+constexpr float kHalfStep = 0.5F * (1.0F / kNearM - 1.0F / kFarM) / 131072.0F;
+
 std::string firstLine(const std::string& text) { return text.substr(0, text.find('\n')); }
 
 /// MRPT counts from the image's corner, we from the centre of its first pixel.
@@ -84,10 +89,11 @@ struct Eye {
       const float* lower = &depth(row * factor + factor / 2, 0);
       for (int column = 0; column < size.width; ++column) {
         const int left = column * factor + (factor - 1) / 2, right = column * factor + factor / 2;
-        found[column] = left == right
+        const float z = left == right
                             ? upper[left]
                             : between({upper[left], upper[right], lower[left], lower[right]},
                                       (row + column) % 2 == 0);
+        found[column] = z > 0.0F ? 1.0F / (1.0F / z - kHalfStep) : z;
       }
     }
     return result;
