@@ -126,6 +126,25 @@ TEST(DepthSlopeDetector, ACornerIsOnTheFrameThatStandsOutFromTheWall) {
   EXPECT_LT((seen - frame).norm(), 0.015) << seen.transpose();
 }
 
+TEST(DepthSlopeDetector, NothingIsWhereACabinetEndsBeforeAWall) {
+  // Its side and the wall would meet at (2.4, 0.35).
+  const CameraPlace place{1.2, radians(5.0), 0.0, radians(10.0), {0.0, 0.0}};
+  const auto refusal = [&](double gap_m) {
+    Scene scene;
+    scene.faces.push_back({{2.4, -6.0}, {2.4, 6.0}, 150.0});
+    scene.faces.push_back({{1.6, 0.35}, {2.4 - gap_m, 0.35}, 100.0});
+    scene.faces.push_back({{1.6, 0.35}, {1.6, 1.2}, 80.0});
+    const auto found =
+        DepthSlopeDetector().detect(withNoise(render(scene, place), 0.0, 3), EdgeLines{});
+    const auto* corner = nearestBearing(found, bearingOf({2.4, 0.35}));
+    return corner && std::abs(corner->measurement.z[0] - bearingOf({2.4, 0.35})) < 0.006
+               ? corner->refusal
+               : std::string("nothing there");
+  };
+  EXPECT_EQ(refusal(0.0), "");
+  EXPECT_EQ(refusal(0.07), "a gap between the surfaces");
+}
+
 TEST(SlopePixels, TheRuleOfTheThesisMarksTheNearSideOfSteps) {
   Frame frame;
   frame.depth_m = cv::Mat(9, 40, CV_32FC1, cv::Scalar(3.0));

@@ -11,9 +11,8 @@
 namespace colonnade {
 namespace {
 
-constexpr double kPieceCost = 25.0;     ///< chi-squared: a bend must be worth it
-constexpr double kStrayCost = 9.0;      ///< three sigma
-constexpr double kSharedColumns = 2.2;  ///< neighbouring columns share their error
+constexpr double kPieceCost = 25.0;  ///< chi-squared: a bend must be worth it
+constexpr double kStrayCost = 9.0;   ///< three sigma
 
 /// A lip of a frame or skirting board shows where a column covers no more of its surface.
 constexpr double kResolved_m = 0.015;
@@ -184,6 +183,21 @@ class Finder {
     return corner;
   }
 
+  /// The columns in which two surfaces meet show some of both: not to be taken for either.
+  InverseLine withoutMixed(const InverseLine& line, bool right, double s_corner) const {
+    const double mixed = 1.0 / focal_px_;
+    constexpr std::size_t kLeast = 4;
+    std::size_t first = line.first, last = line.last;
+    while (right && last - first > kLeast && sAt(last - 1) > s_corner - mixed) --last;
+    while (!right && last - first > kLeast && sAt(first) < s_corner + mixed) ++first;
+    return isFitted(line) ? fits_.fit(first, last) : line;
+  }
+
+  /// Not so where it was moved onto a lip.
+  bool isFitted(const InverseLine& line) const {
+    return std::abs(fits_.fit(line.first, line.last).at(line.middle) - line.q_middle) < 1e-9;
+  }
+
   bool areConnected(std::size_t i) const {
     return meeting(beside(surfaces_[i], true), beside(surfaces_[i + 1], false)).has_value();
   }
@@ -243,9 +257,18 @@ class Finder {
 
   std::optional<SliceCorner> between(std::size_t i, std::size_t j) const {
     const InverseLine& j_line = surfaces_[j].line;
-    const InverseLine left = withRelief(beside(surfaces_[i], true), true, j_line.first);
-    const InverseLine right = withRelief(beside(surfaces_[j], false), false, left.last);
+    InverseLine left = withRelief(beside(surfaces_[i], true), true, j_line.first);
+    InverseLine right = withRelief(beside(surfaces_[j], false), false, left.last);
     std::optional<SliceCorner> corner = meeting(left, right);
+    if (corner && !isConvex(left, right)) {
+      const InverseLine pure_left = withoutMixed(left, true, corner->s);
+      const InverseLine pure_right = withoutMixed(right, false, corner->s);
+      if (const auto purer = meeting(pure_left, pure_right)) {
+        left = pure_left;
+        right = pure_right;
+        corner = purer;
+      }
+    }
     if (corner && isConvex(left, right))
       corner = meeting(withHiddenRelief(left, corner->s), withHiddenRelief(right, corner->s));
     bool round = false;
@@ -267,6 +290,7 @@ class Finder {
     corner->left = left;
     corner->right = right;
     corner->noise_scale = noise_.scale;
+    corner->noise_shared = noise_.shared;
     return corner;
   }
 
@@ -310,19 +334,23 @@ class Finder {
   InverseLine withoutFray(const InverseLine& line, bool right) const {
     constexpr double kFray = 3.0 / 580.0;
     constexpr std::size_t kEnough = 12;  // columns: fewer cannot be extrapolated to the outline
+    // What was moved onto a lip consists of such pixels alone, though few of them count.
+    constexpr double kLipInward = 0.4, kInward = 1.0;  // columns
+    if (!isFitted(line)) return doubtful(line, kLipInward);
     std::size_t first = line.first, last = line.last;
     const double end = sAt(right ? last - 1 : first);
-    while (right && last - first > kEnough && sAt(last - 1) > end - kFray) --last;
-    while (!right && last - first > kEnough && sAt(first) < end + kFray) ++first;
-    // What was moved onto a lip consists of such pixels alone.
-    if (std::abs(fits_.fit(line.first, line.last).at(line.middle) - line.q_middle) > 1e-9) {
-      constexpr double kInward = 0.4;  // columns
-      const double sigma_q = kInward * line.b / focal_px_;
-      InverseLine doubtful = line;
-      doubtful.covariance(0, 0) += sigma_q * sigma_q / noise_.shared;
-      return doubtful;
-    }
-    return fits_.fit(first, last);
+    const auto isFray = [&](std::size_t i) { return std::abs(sAt(i) - end) < kFray; };
+    while (right && last - first > kEnough && isFray(last - 1)) --last;
+    while (!right && last - first > kEnough && isFray(first)) ++first;
+    const InverseLine fitted = fits_.fit(first, last);
+    return isFray(right ? last - 1 : first) ? doubtful(fitted, kInward) : fitted;
+  }
+
+  /// As if all columns showed what lies so many columns aside.
+  InverseLine doubtful(InverseLine line, double columns) const {
+    const double sigma_q = columns * line.b / focal_px_;
+    line.covariance(0, 0) += sigma_q * sigma_q / noise_.shared;
+    return line;
   }
 
   std::optional<SliceCorner> jump(const InverseLine& left, const InverseLine& right) const {
@@ -401,7 +429,8 @@ std::optional<bool> isSeenIn(const InverseColumns& band, const InverseColumns& c
   const auto right = sideIn(*corner.right);
   if (!left || !right) return std::nullopt;
   const auto nearBy = [&](const InverseLine& seen, const InverseLine& line) {
-    const double variance = kSharedColumns * (seen.variance(line.middle) + line.covariance(0, 0));
+    const double variance =
+        corner.noise_shared * (seen.variance(line.middle) + line.covariance(0, 0));
     return std::abs(seen.at(line.middle) - line.q_middle) <
            0.02 * line.q_middle + 3.0 * std::sqrt(variance);
   };
@@ -414,11 +443,12 @@ std::optional<bool> isSeenIn(const InverseColumns& band, const InverseColumns& c
     const double step_m =
         1.0 / std::max(far.at(corner.s), 1e-3) - 1.0 / std::max(near.at(corner.s), 1e-3);
     const double z_near = 1.0 / std::max(near.at(corner.s), 1e-3);
-    const double sigma_m = std::sqrt(kSharedColumns * near.variance(corner.s)) * z_near * z_near;
+    const double sigma_m =
+        std::sqrt(corner.noise_shared * near.variance(corner.s)) * z_near * z_near;
     return nearBy(near, whole) && step_m + 3.0 * sigma_m > 0.5 * corner.step_m;
   }
   if (!nearBy(*left, *corner.left) || !nearBy(*right, *corner.right)) return false;
-  const auto there = intersection(*left, *right, kSharedColumns);
+  const auto there = intersection(*left, *right, corner.noise_shared);
   if (!there) return false;
   const double tolerance =
       3.0 / focal_px + 3.0 * std::sqrt(there->covariance(0, 0) + corner.covariance(0, 0));

@@ -22,6 +22,7 @@ struct SliceCorner {
   double turn = 0.0;                       ///< of others: angle between the surfaces
   std::optional<InverseLine> left, right;  ///< what was measured beside it
   double noise_scale = 1.0;                ///< of the variances of this frame's columns
+  double noise_shared = 1.0;               ///< columns that have one error in common
   std::string refusal;
 
   Eigen::Vector2d p_slice() const { return Eigen::Vector2d(s, 1.0) / q; }
