@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <opencv2/core/mat.hpp>
 #include <optional>
@@ -26,15 +27,20 @@ class DepthView {
     const bool usable = frame.depth_m.type() == CV_32FC1 &&
                         (frame.gray.empty() || frame.depth_m.size() == frame.gray.size());
     if (usable) depth_m_ = frame.depth_m;
+    constexpr int kEvery_px = 8;
+    for (int v = 0; v < depth_m_.rows; v += kEvery_px)
+      for (int u = 0; u < depth_m_.cols; u += kEvery_px)
+        if (isMeasured(depth_m_.at<float>(v, u)))
+          reach_m_ = std::max(reach_m_, static_cast<double>(depth_m_.at<float>(v, u)));
   }
+  /// The farthest depth of this frame: what is missing beyond may be out of reach.
+  double reach_m() const { return reach_m_; }
   bool empty() const { return depth_m_.empty(); }
 
   std::optional<SeenPoint> at(int u, int v) const {
     if (u < 0 || v < 0 || u >= depth_m_.cols || v >= depth_m_.rows) return std::nullopt;
     const double depth_m = static_cast<double>(depth_m_.at<float>(v, u));
-    constexpr double kNearest_m = 0.2;
-    constexpr double kFarthest_m = 15.0;
-    if (!(depth_m > kNearest_m && depth_m < kFarthest_m)) return std::nullopt;  // also NaN
+    if (!isMeasured(depth_m)) return std::nullopt;
     const Eigen::Vector3d offset = depth_m * camera_.ray(u, v);
     return SeenPoint{camera_.centre() + offset, depth_m, offset.head<2>().norm()};
   }
@@ -44,8 +50,14 @@ class DepthView {
   }
 
  private:
+  static bool isMeasured(double depth_m) {
+    constexpr double kNearest_m = 0.2;
+    constexpr double kFarthest_m = 15.0;
+    return depth_m > kNearest_m && depth_m < kFarthest_m;  // NaN is not
+  }
   const LevelledCamera& camera_;
   cv::Mat depth_m_;
+  double reach_m_ = 0.0;
 };
 
 }  // namespace colonnade

@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "across_profile.hpp"
 #include "colonnade/detectors/depth_noise.hpp"
 #include "colonnade/detectors/levelled_camera.hpp"
 #include "colonnade/detectors/pillar_pairs.hpp"
 #include "colour_sampling.hpp"
 #include "line_refinement.hpp"
+#include "pillar_consensus.hpp"
 #include "pillar_range.hpp"
 #include "pillar_seeds.hpp"
 #include "pillar_span.hpp"
@@ -49,53 +51,15 @@ Bearing bestBearing(const LevelledCamera& camera, const RefinedLine& line,
   return best;
 }
 
-/// By which a line leans over from the projected vertical in the image, radians.
-double lean(const LevelledCamera& camera, const RefinedLine& line) {
-  const Eigen::Vector2d along = (line.at(line.end) - line.at(line.begin)).normalized();
-  const Eigen::Vector2d down = camera.downDirection(line.at(0.5 * (line.begin + line.end)));
-  return std::asin(std::clamp(along.x() * down.y() - along.y() * down.x(), -1.0, 1.0));
+RefinedLines candidatesAmong(const RefinedLines& lines, const LevelledCamera& camera,
+                             const PillarOptions& options) {
+  RefinedLines candidates;
+  for (const auto& line : lines)
+    if (line.steep && line.length() >= options.min_length_px &&
+        std::abs(leanOf(camera, line)) <= options.vertical_tolerance)
+      candidates.push_back(line);
+  return candidates;
 }
-
-bool isCandidate(const LevelledCamera& camera, const RefinedLine& line,
-                 const PillarOptions& options) {
-  return line.steep && line.length() >= options.min_length_px &&
-         std::abs(lean(camera, line)) <= options.vertical_tolerance;
-}
-
-/// Where the camera's roll is not quite right, all verticals of a frame lean over by the same;
-/// where its pitch is not, by what is linear in the column. Theil and Sen's line through all of
-/// them, where there are enough of them to tell.
-class CommonLean {
- public:
-  CommonLean(const LevelledCamera& camera, const RefinedLines& lines,
-             const PillarOptions& options) {
-    constexpr std::size_t kFewest = 5;
-    constexpr double kApart_px = 60.0;
-    std::vector<std::pair<double, double>> leans;  // by column
-    for (const auto& line : lines)
-      if (isCandidate(camera, line, options))
-        leans.emplace_back(middleOf(line), lean(camera, line));
-    if (leans.size() < kFewest) return;
-    std::vector<double> slopes, offsets;
-    for (std::size_t i = 0; i < leans.size(); ++i)
-      for (std::size_t j = i + 1; j < leans.size(); ++j)
-        if (std::abs(leans[i].first - leans[j].first) > kApart_px)
-          slopes.push_back((leans[i].second - leans[j].second) / (leans[i].first - leans[j].first));
-    per_px_ = medianOf(slopes);
-    for (const auto& [column, angle] : leans) offsets.push_back(angle - per_px_ * column);
-    at_0_ = medianOf(offsets);
-    known_ = true;
-  }
-  bool known() const { return known_; }
-  double of(const RefinedLine& line) const { return at_0_ + per_px_ * middleOf(line); }
-
- private:
-  static double middleOf(const RefinedLine& line) {
-    return line.across(0.5 * (line.begin + line.end));
-  }
-  double at_0_ = 0.0, per_px_ = 0.0;
-  bool known_ = false;
-};
 
 Measurement toMeasurement(const LevelledCamera& camera, const Bearing& bearing,
                           const PillarRange& range) {
@@ -123,48 +87,6 @@ bool isSameLandmark(const Detection& a, const Detection& b, double separation) {
   if (apart > std::max(separation, 2.0 * std::sqrt(std::max(m.R(0, 0), n.R(0, 0))))) return false;
   if (!m.hasRange() || !n.hasRange()) return true;
   return std::abs(m.z[1] - n.z[1]) < 0.1 + 3.0 * std::sqrt(m.R(1, 1) + n.R(1, 1));
-}
-
-/// Does depth beside most of a line not show a surface at this range? Where depth is missing it does
-/// not.
-bool isElsewhere(const DepthView& depth, const RefinedLine& line, double range_m) {
-  constexpr int kPlaces = 8;
-  constexpr double kBeside_px = 5.0;
-  const double tolerance_m = 0.1 + 3.0 * kinectDepthSigma(range_m);
-  int here = 0;
-  for (int i = 0; i < kPlaces; ++i) {
-    const double v = line.begin + (line.end - line.begin) * (i + 0.5) / kPlaces;
-    const auto left = depth.at(line.at(v) - Eigen::Vector2d(kBeside_px, 0.0));
-    const auto right = depth.at(line.at(v) + Eigen::Vector2d(kBeside_px, 0.0));
-    if (!left && !right) continue;  // nothing where depth reaches
-    const double nearer =
-        std::min(left ? left->range_m : right->range_m, right ? right->range_m : left->range_m);
-    here += std::abs(nearer - range_m) < tolerance_m ? 1 : 0;
-  }
-  return 2 * here < kPlaces;
-}
-
-/// The rows of a line and of all others that lie on it, above and below, with the same gradient.
-/// Not what lies below the floor at the line's range, a joint or a reflection there, nor what depth
-/// shows to be nearer or farther.
-SeenSpan spanOf(const RefinedLine& line, const RefinedLines& lines, const LevelledCamera& camera,
-                const DepthView& depth, std::optional<double> range_m) {
-  constexpr double kBeside_px = 2.5;
-  constexpr double kBelowFloor_m = 0.15;
-  SeenSpan span{line.begin, line.end};
-  for (const auto& other : lines) {
-    if (!other.steep || other.gradient_sign != line.gradient_sign) continue;
-    const auto apart = [&](double s) { return std::abs(other.across(s) - line.across(s)); };
-    if (std::max(apart(other.begin), apart(other.end)) > kBeside_px) continue;
-    const Eigen::Vector3d lowest = camera.ray(line.at(other.end));
-    if (range_m &&
-        camera.height() + *range_m * lowest.z() / lowest.head<2>().norm() < -kBelowFloor_m)
-      continue;
-    if (range_m && isElsewhere(depth, other, *range_m)) continue;
-    span.top = std::min(span.top, other.begin);
-    span.bottom = std::max(span.bottom, other.end);
-  }
-  return span;
 }
 
 /// Is it seen down to the floor, as a joint over a wall's whole height is?
@@ -213,9 +135,13 @@ Detections PillarDetector::detect(const Frame& frame, const RefinedLines& given)
   const RefinedLines faint = faintUprights(frame.gray, camera, options_, lines_);
   lines.insert(lines.end(), faint.begin(), faint.end());
   lines = withoutDuplicates(std::move(lines), lines_.duplicate_px);
-  const CommonLean common_lean(camera, lines, options_);
-  for (const auto& line : lines) {  // longest first
-    if (!isCandidate(camera, line, options_)) continue;
+  const RefinedLines candidates = candidatesAmong(lines, camera, options_);  // longest first
+  std::vector<AcrossProfile> profiles;
+  for (const auto& line : candidates) profiles.emplace_back(frame.gray, line);
+  const CommonLean common_lean(camera, candidates);
+  const CommonWidth common_width(profiles);
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    const auto& line = candidates[i];
     const PillarRange range = measurePillarRange(depth, line, options_, geometry_);
     Detection detection;
     detection.measurement = toMeasurement(camera, bestBearing(camera, line, geometry_), range);
@@ -226,19 +152,24 @@ Detections PillarDetector::detect(const Frame& frame, const RefinedLines& given)
     detection.appearance.right = meanColourBeside(frame, line, line.begin, line.end, 1);
     detection.refusal = reasonToRefuse(range.verdict, line.length(), options_);
     if (detection.accepted() && common_lean.known() &&
-        std::abs(lean(camera, line) - common_lean.of(line)) >
+        std::abs(leanOf(camera, line) - common_lean.of(line)) >
             options_.parallel_tolerance + 2.0 * std::sqrt(line.covariance(1, 1)))
       detection.refusal = "leans over";
     if (detection.accepted()) {
-      const AcrossProfile profile(frame.gray, line);
+      const AcrossProfile& profile = profiles[i];
       const auto seen_m = range.range_m > 0.0 ? std::optional(range.range_m) : std::nullopt;
-      const SeenSpan span = spanOf(line, lines, camera, depth, seen_m);
-      detection.refusal = profile.isShade() ? "a shade without an edge"
-                                            : reasonAgainstSpan(frame.gray, depth, camera, line,
-                                                                span, seen_m, options_);
+      const SeenSpan span =
+          seenSpan(frame.gray, depth, camera, line, lines, seen_m, range.one_sided, options_);
+      detection.refusal = profile.width() > common_width.limit()
+                              ? "a shade without an edge"
+                              : reasonAgainstSpan(frame.gray, depth, camera, line, span, seen_m,
+                                                  range.one_sided, options_);
       detection.on_surface =
-          (range.smooth || !seen_m) && profile.isThinLine(thinWidth(frame, range)) &&
-          !(seen_m && reachesFloor(camera, line.at(span.bottom), *seen_m, options_));
+          (range.smooth || range.one_sided || !seen_m) &&
+          profile.isThinLine(thinWidth(frame, range)) &&
+          !(seen_m && reachesFloor(camera, line.at(span.bottom), *seen_m, options_) &&
+            !hasGapInside(frame.gray, depth, camera, line, span, *seen_m, range.one_sided,
+                          options_));
     }
     if (detection.accepted() &&
         std::any_of(detections.begin(), detections.end(), [&](const Detection& longer) {

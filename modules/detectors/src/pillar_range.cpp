@@ -169,10 +169,12 @@ PillarRange measurePillarRange(const DepthView& depth, const RefinedLine& line,
   }
   const int usable_rows = seen_rows - floor_rows;
   const Side sides[2] = {walk(left, usable_rows), walk(right, usable_rows)};
-  if (!sides[0].valid || !sides[1].valid) return result;
-  const double range_l = sides[0].range();
-  const double range_r = sides[1].range();
-  const int near = range_l <= range_r ? 0 : 1;
+  if (!sides[0].valid && !sides[1].valid) return result;
+  // Depth fails beside an edge in the shadow it throws, on panes, beyond the reach of depth and on
+  // walls seen at a grazing angle: the surface that is seen ends in the edge.
+  const bool one_sided = !sides[0].valid || !sides[1].valid;
+  const int near = one_sided ? (sides[0].valid ? 0 : 1)
+                             : (sides[0].inverse_range >= sides[1].inverse_range ? 0 : 1);
   const Side& nearer = sides[near];
   const Strip& near_strip = near == 0 ? left : right;
   const double noise_m = kinectDepthSigma(nearer.range());
@@ -183,10 +185,13 @@ PillarRange measurePillarRange(const DepthView& depth, const RefinedLine& line,
     result.verdict = PillarRange::Verdict::kNotUpright;
     return result;
   }
+  const Side& other = sides[1 - near];
   const bool smooth =
-      std::abs(range_l - range_r) < options.surface_step_m + 3.0 * noise_m + 2.0 * lateral_m &&
-      sides[1 - near].start <= kNearStart_px;
+      !one_sided &&
+      other.range() - nearer.range() < options.surface_step_m + 3.0 * noise_m + 2.0 * lateral_m &&
+      other.start <= kNearStart_px;
   result.smooth = smooth;
+  result.one_sided = one_sided;
   result.slope_m_per_px = lateral_m;
   result.range_m =
       smooth ? 2.0 / (sides[0].inverse_range + sides[1].inverse_range) : nearer.range();
@@ -195,8 +200,10 @@ PillarRange measurePillarRange(const DepthView& depth, const RefinedLine& line,
   const double bias_m = depthBiasSigma(result.range_m, geometry.depth_bias_per_m2);
   result.sigma_m = std::hypot(std::hypot(extrapolation * noise_m / std::sqrt(kAveraged), lateral_m),
                               bias_m, 0.015);
-  const bool usable =
-      result.range_m >= geometry.min_depth_m && result.range_m <= geometry.max_depth_m;
+  // It tells whether the edge stands on the floor, but now and then a pane or something black
+  // stands there: such a range is not handed on.
+  const bool usable = !one_sided && result.range_m >= geometry.min_depth_m &&
+                      result.range_m <= geometry.max_depth_m;
   if (usable) result.verdict = PillarRange::Verdict::kMeasured;
   return result;
 }

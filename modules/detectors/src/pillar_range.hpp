@@ -20,6 +20,7 @@ struct PillarRange {
   double sigma_m = 0.0;
   double slope_m_per_px = 0.0;  ///< of the nearer surface's range, across the line
   bool smooth = false;          ///< measured, and the surface goes on on the other side
+  bool one_sided = false;       ///< range_m is known, but depth fails on the other side
 };
 
 PillarRange measurePillarRange(const DepthView& depth, const RefinedLine& line,

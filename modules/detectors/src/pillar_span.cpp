@@ -3,7 +3,6 @@
 #include "pillar_span.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "colonnade/detectors/depth_noise.hpp"
@@ -12,11 +11,14 @@
 namespace colonnade {
 namespace {
 
-constexpr int kPause_px = 4;          // past the end: an edge may fade a little early
-constexpr int kBeside_px = 5;         // from the edge, clear of displaced depth
-constexpr int kLeastRows = 6;         // that tell
-constexpr int kBorder_px = 6;         // an edge that comes so near leaves the picture
-constexpr double kLeastGap_m = 0.12;  // of height without the edge
+constexpr int kPause_px = 4;             // past the end: an edge may fade a little early
+constexpr int kBeside_px = 5;            // from the edge, clear of displaced depth
+constexpr int kLeastRows = 6;            // that tell
+constexpr int kBorder_px = 6;            // an edge that comes so near leaves the picture
+constexpr double kLeastGap_m = 0.12;     // of height without the edge
+constexpr double kLastStretch_m = 0.05;  // before the floor or the head: an edge reaches it or ends
+constexpr double kGapRows = 14.0;        // at least, or kLastStretch_m, without an edge
+constexpr double kEnd_px = 6.0;          // by which a line may end too early
 constexpr double kFar_m = 1e3;
 constexpr double kLeastContrast = 4.5;  // gray levels, median: more than noise and shades leave
 constexpr double kLeastShare = 0.15;    // of its own contrast that an edge keeps where it goes on
@@ -26,12 +28,14 @@ struct Evidence {
   int ended = 0;
   std::vector<int> contrasts;  ///< by row, gray levels in the sense of the edge
 
-  /// may_turn: before a skirting board the contrast may turn about, and the corner is still there.
-  bool endedWithoutTrace(int own_contrast, bool may_turn) {
+  /// may_turn: before a skirting board the contrast may turn about and become weaker, and the
+  /// corner is still there.
+  bool endedWithoutTrace(int own_contrast, bool may_turn) const {
     if (seen < kLeastRows || 5 * ended <= 3 * seen) return false;
-    const int left = medianOf(contrasts);
-    return (may_turn ? std::abs(left) : left) <
-           std::max(kLeastContrast, kLeastShare * own_contrast);
+    std::vector<int> left = contrasts;
+    const int median = medianOf(left);
+    return may_turn ? std::abs(median) < kLeastContrast
+                    : median < std::max(kLeastContrast, kLeastShare * own_contrast);
   }
 };
 
@@ -55,27 +59,44 @@ int ownContrast(const cv::Mat& gray, const RefinedLine& line) {
 class Beyond {
  public:
   Beyond(const cv::Mat& gray, const DepthView& depth, const LevelledCamera& camera,
-         const RefinedLine& line, double range_m, const PillarOptions& options)
+         const RefinedLine& line, double range_m, bool one_sided, const PillarOptions& options)
       : gray_(gray),
         depth_(depth),
         camera_(camera),
         line_(line),
         range_m_(range_m),
-        tolerance_m_(options.surface_step_m + 3.0 * kinectDepthSigma(range_m)) {}
+        one_sided_(one_sided),
+        tolerance_m_(options.surface_step_m + 3.0 * kinectDepthSigma(range_m)),
+        in_reach_(range_m + tolerance_m_ < depth.reach_m()) {}
 
   double heightAt(double v) const {
     const Eigen::Vector3d ray = camera_.ray(line_.at(v));
     return camera_.height() + range_m_ * ray.z() / ray.head<2>().norm();
   }
 
-  /// Rows from `from` (excluded) on, one by one, while `goesOn` and the picture lasts.
-  template <class GoesOn>
-  Evidence look(double from, int step, GoesOn goesOn) const {
-    Evidence evidence;
-    for (double v = from + step * kPause_px; v > 1.0 && v < gray_.rows - 2.0; v += step) {
-      if (!goesOn(heightAt(v))) break;
-      addRow(v, evidence);
+  /// The row at a height, as far as the picture goes.
+  double rowAt(double height_m) const {
+    double v = line_.begin;
+    for (int i = 0; i < 3; ++i) {  // the line is nearly upright
+      const double per_row = heightAt(v + 1.0) - heightAt(v);
+      v = std::clamp(v + (height_m - heightAt(v)) / per_row, 2.0, gray_.rows - 3.0);
     }
+    return v;
+  }
+  /// Is there a stretch in which neither depth nor the image shows the edge?
+  bool hasGap(double top, double bottom, int own_contrast, bool may_turn) const {
+    const double row_m = heightAt(top) - heightAt(top + 1.0);
+    const double stretch = std::max(kGapRows, kLastStretch_m / row_m);
+    if (between(top, bottom).endedWithoutTrace(own_contrast, may_turn)) return true;
+    for (double v = top; v + stretch <= bottom; v += 0.5 * stretch)
+      if (between(v, v + stretch).endedWithoutTrace(own_contrast, may_turn)) return true;
+    return bottom - top > stretch &&
+           between(bottom - stretch, bottom).endedWithoutTrace(own_contrast, may_turn);
+  }
+  Evidence between(double top, double bottom) const {
+    Evidence evidence;
+    for (double v = std::max(top, 2.0); v <= std::min(bottom, gray_.rows - 3.0); v += 1.0)
+      addRow(v, evidence);
     return evidence;
   }
 
@@ -86,16 +107,18 @@ class Beyond {
     const Eigen::Vector2d here = line_.at(v);
     const Eigen::Vector2d aside(kBeside_px, 0.0);
     const auto left = depth_.at(here - aside), right = depth_.at(here + aside);
-    // Where depth is missing there is nothing at the edge's own range, at which it measures.
+    // Where depth is missing on both sides, or beyond its reach, the contrast alone tells.
     const double left_m = left ? left->range_m : kFar_m, right_m = right ? right->range_m : kFar_m;
     const double nearer = std::min(left_m, right_m), farther = std::max(left_m, right_m);
     if (nearer < range_m_ - tolerance_m_) return;  // hidden
     const bool near_side = nearer < range_m_ + tolerance_m_;
-    if (near_side && farther == kFar_m) return;
+    // What has no depth behind the edge elsewhere says nothing here either.
+    if (one_sided_ && in_reach_ && near_side && farther == kFar_m) return;
     ++evidence.seen;
     evidence.contrasts.push_back(*contrast);
-    const bool step_goes_on =
-        near_side && farther > range_m_ + 2.0 * tolerance_m_ && !isOnePlane(here, left_m, right_m);
+    const bool step_goes_on = near_side && (farther < kFar_m || in_reach_) &&
+                              farther > range_m_ + 2.0 * tolerance_m_ &&
+                              !isOnePlane(here, left_m, right_m);
     evidence.ended += step_goes_on ? 0 : 1;
   }
 
@@ -116,7 +139,9 @@ class Beyond {
   const LevelledCamera& camera_;
   const RefinedLine& line_;
   double range_m_;
+  bool one_sided_;
   double tolerance_m_;
+  bool in_reach_;
 };
 
 /// What lies beyond the ends of a line without a range.
@@ -125,15 +150,19 @@ class BeyondUnranged {
   BeyondUnranged(const cv::Mat& gray, const DepthView& depth, const RefinedLine& line)
       : gray_(gray), depth_(depth), line_(line) {}
 
-  /// From an end (excluded) on, a part of the picture's height: has the contrast gone?
-  bool endedWithoutTrace(double from, int step) const {
-    const int reach = gray_.rows / 10;
+  Evidence between(double top, double bottom) const {
     Evidence evidence;
-    for (int i = 0; i < reach; ++i)
-      if (const auto contrast = contrastAt(gray_, line_, from + step * (kPause_px + i)))
+    for (double v = top; v <= bottom; v += 1.0)
+      if (const auto contrast = contrastAt(gray_, line_, v))
         evidence.contrasts.push_back(*contrast);
     evidence.seen = evidence.ended = static_cast<int>(evidence.contrasts.size());
-    return evidence.endedWithoutTrace(ownContrast(gray_, line_), true);
+    return evidence;
+  }
+  /// From an end (excluded) on, a part of the picture's height: has the contrast gone?
+  bool endedWithoutTrace(double from, int step) const {
+    const double first = from + step * kPause_px, last = first + step * gray_.rows / 10.0;
+    return between(std::min(first, last), std::max(first, last))
+        .endedWithoutTrace(ownContrast(gray_, line_), true);
   }
   /// Does depth show something below this end that is higher than the floor?
   bool standsOnNoFloor(double end, double foot_m) const {
@@ -151,11 +180,86 @@ class BeyondUnranged {
   const RefinedLine& line_;
 };
 
+/// Does depth beside most of a line not show a surface at this range? Where depth is missing it
+/// does not.
+bool isElsewhere(const DepthView& depth, const RefinedLine& line, double range_m) {
+  constexpr int kPlaces = 8;
+  constexpr double kBeside_px = 5.0;
+  const double tolerance_m = 0.1 + 3.0 * kinectDepthSigma(range_m);
+  int here = 0;
+  for (int i = 0; i < kPlaces; ++i) {
+    const double v = line.begin + (line.end - line.begin) * (i + 0.5) / kPlaces;
+    const auto left = depth.at(line.at(v) - Eigen::Vector2d(kBeside_px, 0.0));
+    const auto right = depth.at(line.at(v) + Eigen::Vector2d(kBeside_px, 0.0));
+    if (!left && !right) continue;  // nothing where depth reaches
+    const double nearer =
+        std::min(left ? left->range_m : right->range_m, right ? right->range_m : left->range_m);
+    here += std::abs(nearer - range_m) < tolerance_m ? 1 : 0;
+  }
+  return 2 * here < kPlaces;
+}
+
+/// What continues a line, in the order of their upper ends.
+RefinedLines piecesOf(const RefinedLine& line, const RefinedLines& lines,
+                      const LevelledCamera& camera, const DepthView& depth,
+                      std::optional<double> range_m) {
+  constexpr double kAside_px = 2.5;
+  constexpr double kBelowFloor_m = 0.15;
+  RefinedLines pieces;
+  for (const auto& other : lines) {
+    if (!other.steep || other.gradient_sign != line.gradient_sign) continue;
+    const auto apart = [&](double s) { return std::abs(other.across(s) - line.across(s)); };
+    if (std::max(apart(other.begin), apart(other.end)) > kAside_px) continue;
+    const Eigen::Vector3d lowest = camera.ray(line.at(other.end));
+    if (range_m &&
+        camera.height() + *range_m * lowest.z() / lowest.head<2>().norm() < -kBelowFloor_m)
+      continue;
+    if (range_m && isElsewhere(depth, other, *range_m)) continue;
+    pieces.push_back(other);
+  }
+  std::sort(pieces.begin(), pieces.end(),
+            [](const auto& a, const auto& b) { return a.begin < b.begin; });
+  return pieces;
+}
+
 }  // namespace
+
+SeenSpan seenSpan(const cv::Mat& gray, const DepthView& depth, const LevelledCamera& camera,
+                  const RefinedLine& line, const RefinedLines& lines, std::optional<double> range_m,
+                  bool one_sided, const PillarOptions& options) {
+  const int own = ownContrast(gray, line);
+  const auto isGap = [&](double top, double bottom) {
+    const double from = top + kPause_px, to = bottom - kPause_px;
+    if (!range_m)
+      return BeyondUnranged(gray, depth, line).between(from, to).endedWithoutTrace(own, false);
+    const Beyond beyond(gray, depth, camera, line, *range_m, one_sided, options);
+    return beyond.between(from, to).endedWithoutTrace(own, false);
+  };
+  const RefinedLines pieces = piecesOf(line, lines, camera, depth, range_m);
+  SeenSpan span{line.begin, line.end};
+  for (const auto& piece : pieces) {
+    if (piece.end <= span.bottom || piece.begin < line.begin) continue;
+    if (isGap(span.bottom, piece.begin)) break;
+    span.bottom = piece.end;
+  }
+  for (auto piece = pieces.rbegin(); piece != pieces.rend(); ++piece) {
+    if (piece->begin >= span.top || piece->end > line.end) continue;
+    if (isGap(piece->end, span.top)) break;
+    span.top = piece->begin;
+  }
+  return span;
+}
+
+bool hasGapInside(const cv::Mat& gray, const DepthView& depth, const LevelledCamera& camera,
+                  const RefinedLine& line, const SeenSpan& span, double range_m, bool one_sided,
+                  const PillarOptions& options) {
+  return Beyond(gray, depth, camera, line, range_m, one_sided, options)
+      .hasGap(span.top + kPause_px, span.bottom - kPause_px, ownContrast(gray, line), false);
+}
 
 std::string reasonAgainstSpan(const cv::Mat& gray, const DepthView& depth,
                               const LevelledCamera& camera, const RefinedLine& line,
-                              const SeenSpan& span, std::optional<double> range_m,
+                              const SeenSpan& span, std::optional<double> range_m, bool one_sided,
                               const PillarOptions& options) {
   const auto elevation = [&](double v) {
     const Eigen::Vector3d ray = camera.ray(line.at(v));
@@ -181,65 +285,25 @@ std::string reasonAgainstSpan(const cv::Mat& gray, const DepthView& depth,
       return "too low for a part of the building";
     return "";
   }
-  const Beyond beyond(gray, depth, camera, line, *range_m, options);
+  const Beyond beyond(gray, depth, camera, line, *range_m, one_sided, options);
+  const int own = ownContrast(gray, line);
   const double foot_m = beyond.heightAt(span.bottom), head_m = beyond.heightAt(span.top);
-  if (!leaves_below && foot_m > options.max_foot_m) {
-    const double until_m = std::min(0.5 * options.max_foot_m, foot_m - kLeastGap_m);
+  const double row_m = beyond.heightAt(span.bottom) - beyond.heightAt(span.bottom + 1.0);
+  const double highest_foot_m = options.max_foot_m + kEnd_px * row_m;
+  if (!leaves_below && foot_m > highest_foot_m) {
+    const double from = span.bottom + kPause_px;
     const bool may_turn = foot_m < 2.0 * options.max_foot_m;
-    if (beyond.look(span.bottom, 1, [&](double h) { return h > until_m; })
-            .endedWithoutTrace(ownContrast(gray, line), may_turn))
+    const double until_m = std::min(0.5 * options.max_foot_m, foot_m - kLeastGap_m);
+    if (beyond.between(from, beyond.rowAt(until_m)).endedWithoutTrace(own, may_turn) ||
+        beyond.hasGap(from, beyond.rowAt(highest_foot_m), own, may_turn))
       return "ends above the floor";
   }
   if (!leaves_above && head_m < options.min_head_m) {
-    const double until_m = std::max(options.min_head_m, head_m + kLeastGap_m);
-    if (beyond.look(span.top, -1, [&](double h) { return h < until_m; })
-            .endedWithoutTrace(ownContrast(gray, line), false))
-      return "too low for a part of the building";
+    const double from = span.top - kPause_px;
+    const double until = beyond.rowAt(std::max(options.min_head_m, head_m + kLeastGap_m));
+    if (beyond.hasGap(until, from, own, false)) return "too low for a part of the building";
   }
   return "";
-}
-
-AcrossProfile::AcrossProfile(const cv::Mat& gray, const RefinedLine& line) {
-  constexpr double kMostRows = 96.0;
-  const double step = std::max(1.0, (line.end - line.begin) / kMostRows);
-  int rows = 0;
-  for (double v = line.begin; v <= line.end; v += step) {
-    const auto u = static_cast<int>(std::lround(line.across(v))), row = static_cast<int>(v);
-    if (row < 0 || row >= gray.rows) continue;
-    if (u < 0 || u >= gray.cols) continue;
-    const auto* p = gray.ptr<unsigned char>(row);
-    for (int k = -kReach_px; k <= kReach_px; ++k)
-      sums_[static_cast<std::size_t>(k + kReach_px)] += p[std::clamp(u + k, 0, gray.cols - 1)];
-    ++rows;
-  }
-  for (auto& sum : sums_) sum *= line.gradient_sign / std::max(1.0, static_cast<double>(rows));
-}
-
-bool AcrossProfile::isShade() const {
-  constexpr int kFar_px = 6;
-  constexpr int kWide_px = 6;  // of the steep part; a sharp edge has 3 or 4
-  const auto steepness = [&](int k) { return at(k + 1) - at(k - 1); };
-  int wide = 1;
-  for (const int way : {-1, 1})
-    for (int k = way; std::abs(k) <= kFar_px && steepness(k) > 0.5 * steepness(0); k += way) ++wide;
-  return wide >= kWide_px;
-}
-
-bool AcrossProfile::isThinLine(int width_px) const {
-  constexpr int kEdge_px = 3;         // within which it has risen
-  constexpr double kReturned = 0.35;  // of its step is what may be left of it
-  double low = at(0), high = at(0);
-  for (int k = 1; k <= kEdge_px; ++k) {
-    low = std::min(low, at(-k));
-    high = std::max(high, at(k));
-  }
-  const double rest = kReturned * (high - low);
-  const int last = std::min(width_px, kReach_px - 1);
-  for (int k = 2; k <= last; ++k) {
-    if (0.5 * (at(k) + at(k + 1)) < low + rest) return true;
-    if (0.5 * (at(-k) + at(-k - 1)) > high - rest) return true;
-  }
-  return false;
 }
 
 }  // namespace colonnade

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
-
 #include "colonnade/detectors/pillar_detector.hpp"
 #include "depth_view.hpp"
 
@@ -15,6 +13,20 @@ struct SeenSpan {
   double bottom = 0.0;
 };
 
+/// The rows of a line and of all others that lie on it, above and below, with the same gradient.
+/// Not what lies below the floor at the line's range, a joint or a reflection there, nor what depth
+/// shows to be nearer or farther, nor what is separated from it by a gap in which neither depth nor
+/// the image shows an edge: the panels of a door stand one above the other.
+/// range_m: horizontal, of the edge, if known.
+SeenSpan seenSpan(const cv::Mat& gray, const DepthView& depth, const LevelledCamera& camera,
+                  const RefinedLine& line, const RefinedLines& lines, std::optional<double> range_m,
+                  bool one_sided, const PillarOptions& options);
+
+/// Is there a stretch of these rows in which neither depth nor the image shows the edge?
+bool hasGapInside(const cv::Mat& gray, const DepthView& depth, const LevelledCamera& camera,
+                  const RefinedLine& line, const SeenSpan& span, double range_m, bool one_sided,
+                  const PillarOptions& options);
+
 /// An edge of a building stands on the floor and is taller than furniture. Where it is not seen
 /// down to the floor or up to `min_head_m`, something must explain that: the picture ends,
 /// something nearer hides it, depth goes on to jump there, or the image keeps some of the contrast.
@@ -25,25 +37,7 @@ struct SeenSpan {
 /// Returns why it is none, or nothing.
 std::string reasonAgainstSpan(const cv::Mat& gray, const DepthView& depth,
                               const LevelledCamera& camera, const RefinedLine& line,
-                              const SeenSpan& span, std::optional<double> range_m,
+                              const SeenSpan& span, std::optional<double> range_m, bool one_sided,
                               const PillarOptions& options);
-
-/// Mean gray levels beside a line, by distance from it, in the sense of its gradient: they rise at
-/// 0.
-class AcrossProfile {
- public:
-  static constexpr int kReach_px = 20;
-  AcrossProfile(const cv::Mat& gray, const RefinedLine& line);
-
-  /// The gentle slope of a shade on a wall, such as in a corner or of a lamp, and no edge: the
-  /// gradient stays above half of its peak over many pixels.
-  bool isShade() const;
-  /// One side of a line of up to this width with the same shade on both sides of it.
-  bool isThinLine(int width_px) const;
-
- private:
-  double at(int k) const { return sums_[static_cast<std::size_t>(k + kReach_px)]; }
-  std::array<double, 2 * kReach_px + 1> sums_{};
-};
 
 }  // namespace colonnade

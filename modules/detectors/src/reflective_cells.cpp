@@ -50,6 +50,16 @@ Outline outlineOf(const std::vector<std::size_t>& region, const std::vector<std:
   return outline;
 }
 
+/// A cell of a shrunk region and the holes beside it.
+void markGrown(std::size_t cell, const std::vector<std::uint8_t>& holes, const DepthCells& cells,
+               std::vector<std::uint8_t>& marks) {
+  const int column = static_cast<int>(cell) % cells.columns;
+  const int row = static_cast<int>(cell) / cells.columns;
+  for (int r = row - 1; r <= row + 1; ++r)
+    for (int c = column - 1; c <= column + 1; ++c)
+      if (cells.contains(c, r) && holes[cells.index(c, r)]) marks[cells.index(c, r)] = 1;
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> reflectiveCells(const DepthCells& cells,
@@ -69,7 +79,7 @@ std::vector<std::uint8_t> reflectiveCells(const DepthCells& cells,
     constexpr int kLeastOutline = 40;
     if (outline.cells < kLeastOutline) continue;
     if (outline.surface < options.min_border_share * outline.cells) continue;
-    for (const std::size_t cell : region) marks[cell] = 1;
+    for (const std::size_t cell : region) markGrown(cell, holes, cells, marks);
   }
   return marks;
 }
