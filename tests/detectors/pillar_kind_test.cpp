@@ -53,6 +53,58 @@ TEST(PillarKind, FurnitureIsTooLow) {
   EXPECT_TRUE(seesEdgeAt(detectAll(blind), {3.0, -1.0}));
 }
 
+TEST(PillarKind, ADepthJumpThatEndsBelowTheHeadIsFurniture) {
+  // A cabinet before a wall that has its shade in the lower part: the edge is seen above, where a
+  // notice hangs behind it, and depth jumps up to the cabinet's top.
+  Scene scene{{wall(),
+               {{3.0, 0.2}, {3.0, 0.9}, 150.0, 0.0, 1.25},
+               {{3.98, 0.8}, {3.98, 1.7}, 60.0, 0.7, 1.2}},
+              {}};
+  const CameraPlace high{0.9, radians(4.0), 0.0, 0.0, {0.0, 0.0}};
+  EXPECT_FALSE(seesEdgeAt(detectAll(withNoise(render(scene, high), 2.0, 7)), {3.0, 0.9}));
+}
+
+TEST(PillarKind, PanelsOneAboveTheOtherAreNoEdge) {
+  // Grooves of a door, 3 cm wide: one that reaches to the floor is a joint, two with a rail between
+  // them are panels.
+  const auto grooves = [](double low, double high) {
+    return Face{{3.99, 0.0}, {3.99, 0.03}, 60.0, low, high};
+  };
+  Scene joint{{wall(), grooves(0.0, 2.4)}, {}};
+  Scene panels{{wall(), grooves(0.12, 0.7), grooves(0.95, 2.4)}, {}};
+  const auto edgesAt = [](const Detections& all) {
+    int edges = 0;
+    for (const auto& d : accepted(all, LandmarkKind::kPillarEdge))
+      edges += std::abs(d.measurement.z[0] - bearingOf({3.99, 0.015})) < 0.01 && !d.on_surface;
+    return edges;
+  };
+  EXPECT_GT(edgesAt(detectAll(withNoise(render(joint, kLevel), 2.0, 8))), 0);
+  EXPECT_EQ(edgesAt(detectAll(withNoise(render(panels, kLevel), 2.0, 8))), 0);
+}
+
+TEST(PillarKind, PaintThatEndsAboveTheFloorLiesOnASurface) {
+  Scene scene{{wall(), {{3.99, 0.0}, {3.99, 0.02}, 60.0, 0.0, 2.4}}, {}};
+  Frame frame = withNoise(render(scene, kLevel), 2.0, 9);
+  frame.depth_m.release();  // whether it reaches the floor is not known then
+  const auto pillars = accepted(detectAll(frame), LandmarkKind::kPillarEdge);
+  ASSERT_FALSE(pillars.empty());
+  for (const auto& pillar : pillars) EXPECT_TRUE(pillar.on_surface);
+}
+
+TEST(PillarKind, WhereDepthFailsOnOneSideTheOtherOneTells) {
+  // What lies behind the pillar and the board is out of reach.
+  Scene scene{{{{9.0, -9.0}, {9.0, 9.0}, 150.0},
+               {{3.5, -0.8}, {3.5, -0.4}, 70.0},
+               {{3.5, 0.2}, {3.5, 0.9}, 70.0, 0.7, 1.4}},
+              {}};
+  Frame frame = withNoise(render(scene, kLevel), 2.0, 10);
+  frame.depth_m.setTo(0.0F, frame.depth_m > 6.0F);
+  const auto all = detectAll(frame);
+  EXPECT_TRUE(seesEdgeAt(all, {3.5, -0.4}));
+  EXPECT_FALSE(seesEdgeAt(all, {3.5, 0.2}));
+  EXPECT_TRUE(isRefused(all, "ends above the floor"));
+}
+
 TEST(PillarKind, AnEdgeWithoutDepthThatEndsOnAWallIsRefused) {
   // A mirror: no depth on it, wall below it.
   Scene scene{{wall(), {{3.999, -0.6}, {3.999, 0.6}, 60.0, 0.5, 2.5}}, {}};
