@@ -1,9 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The Colonnade authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gmock/gmock.h>
+#include <mrpt/core/Clock.h>
+#include <mrpt/io/CFileGZOutputStream.h>
+#include <mrpt/obs/CObservationImage.h>
+#include <mrpt/serialization/CArchive.h>
 
 #include <limits>
 #include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
 
 #include "colonnade/frames/rawlog_writer.hpp"
 #include "program.hpp"
@@ -54,6 +59,29 @@ class StrangeFramesRun : public testing::ProgramTest {
     ASSERT_TRUE(s["refused"].contains(reason)) << name << ": " << s["refused"];
     EXPECT_EQ(kFrames, s["refused"][reason].get<int>()) << name;
   }
+  /// What RawlogWriter refuses to write: images of 16 bits, inside the log or in files beside it.
+  void writeSixteenBits(const std::string& name, bool in_files) const {
+    mrpt::io::CFileGZOutputStream file((folder_ / (name + ".rawlog")).string());
+    auto archive = mrpt::serialization::archiveFrom(file);
+    std::filesystem::create_directories(folder_ / (name + "_Images"));
+    for (int i = 0; i < kFrames; ++i) {
+      mrpt::obs::CObservationImage picture;
+      picture.timestamp = mrpt::Clock::fromDouble(1000.0 + 0.1 * i);
+      picture.sensorLabel = "CAM";
+      picture.cameraParams.ncols = 320;
+      picture.cameraParams.nrows = 240;
+      picture.cameraParams.setIntrinsicParamsFromValues(280, 280, 160, 120);
+      const cv::Mat deep(240, 320, CV_16UC1, cv::Scalar(900));
+      const std::string png = std::to_string(i) + ".png";
+      if (in_files) {
+        ASSERT_TRUE(cv::imwrite((folder_ / (name + "_Images") / png).string(), deep));
+        picture.image.setExternalStorage(png);
+      } else {
+        picture.image = mrpt::img::CImage(deep, mrpt::img::DEEP_COPY);
+      }
+      archive << picture;
+    }
+  }
   static constexpr int kFrames = 6;
 };
 
@@ -73,6 +101,22 @@ TEST_F(StrangeFramesRun, WithDepthThatIsNoNumberAreCountedAsDamage) {
   EXPECT_EQ(3, outcome.exit_code) << outcome.err;
   EXPECT_THAT(outcome.err, ::testing::HasSubstr("6 skipped: depth without a unit"));
   for (const auto& [kind, count] : summary("nan")["landmarks"].items()) EXPECT_EQ(0, count) << kind;
+}
+
+TEST_F(StrangeFramesRun, OfSixteenBitsInTheLogEndInOneLine) {
+  writeSixteenBits("deep", false);
+  const auto outcome = colonnade("run deep.rawlog -o deep");
+  EXPECT_EQ(1, outcome.exit_code);
+  EXPECT_EQ(1, outcome.errorLines()) << outcome.err;
+  EXPECT_THAT(outcome.err, ::testing::HasSubstr("no camera images or depth"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "deep/landmarks.csv"));
+}
+
+TEST_F(StrangeFramesRun, OfSixteenBitsInFilesAreReadAsEight) {
+  writeSixteenBits("files", true);
+  const auto outcome = colonnade("run files.rawlog -o files");
+  EXPECT_EQ(0, outcome.exit_code) << outcome.err;
+  EXPECT_EQ(kFrames, summary("files")["refused"]["the image has no contrast"].get<int>());
 }
 
 TEST_F(StrangeFramesRun, OfOnePixelEndInOneLine) {
