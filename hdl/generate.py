@@ -56,6 +56,13 @@ def expand(registers):
             yield register["name"] + suffix, register["offset"] + 4 * i
 
 
+def named_fields(registers):
+    """(register_field, lowest bit, bits) of each field that has a name."""
+    for register in registers:
+        for name, low, width in register.get("fields", []):
+            yield register["name"] + "_" + name.upper(), low, width
+
+
 def camel(name):
     return "k" + "".join(part.capitalize() for part in name.lower().split("_"))
 
@@ -78,6 +85,9 @@ def system_verilog(source):
         f"  localparam logic [31:0] VERSION = 32'h{source['identity']['version']:08X};", ""]
     for name, offset in expand(source["register"]):
         lines.append(f"  localparam logic [7:0] REG_{name} = 8'h{offset:02X};")
+    lines.append("")
+    for name, low, width in named_fields(source["register"]):
+        lines.append(f"  localparam int {name}_LSB = {low};" + (f"  // {width} bits" if width > 1 else ""))
     lines += ["", f"  localparam int FRACTION = {fraction};  // bits of the sine table",
               f"  localparam int TRIG_WIDTH = {bits};", "  localparam int ALL_ANGLES = 180;",
               "  // Entry i is theta = i - 90 degrees, entry 0 in the lowest bits."]
@@ -112,6 +122,13 @@ def cpp_registers(source):
         "// Byte offsets, see hdl/REGISTERS.md."]
     for name, offset in expand(source["register"]):
         lines.append(f"inline constexpr std::uint32_t {camel(name)} = 0x{offset:02X};")
+    lines += ["", "// Fields of registers: a single bit as a mask, others by lowest bit and width."]
+    for name, field_low, width in named_fields(source["register"]):
+        if width == 1:
+            lines.append(f"inline constexpr std::uint32_t {camel(name)} = 1U << {field_low};")
+        else:
+            lines.append(f"inline constexpr int {camel(name)}Lsb = {field_low};")
+            lines.append(f"inline constexpr int {camel(name)}Width = {width};")
     lines += ["", "// Fields of a line word."]
     low = 0
     for name, width in reversed(source["line"]["fields"]):

@@ -29,7 +29,7 @@ WHAT = {
     "canny_hysteresis": ("canny", {**CANNY, "PASSES": 2}, "Canny, two passes of hysteresis"),
     "hough": ("hough_parallel", {}, "Hough, the thesis' twelve angles"),
     "hough_generic": ("hough_shared", SHARED, "Hough, 180 angles in 20 shared memories"),
-    "accelerator": ("accelerator", {}, "all with hysteresis, queues and buses"),
+    "accelerator": ("accelerator", {"PASSES": 4}, "all with four passes of hysteresis, queues and buses"),
     "image_stage": ("image_stage", {}, "Canny, one threshold, and Hough, the thesis' twelve angles"),
 }
 SYNTHESIS = [(design, family) for design in ("canny", "hough", "hough_generic", "accelerator")

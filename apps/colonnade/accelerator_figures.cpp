@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "accelerator_report.hpp"
+#include "colonnade/accelerator/accelerator.hpp"
 #include "rtl_measured.hpp"
 
 namespace colonnade {
@@ -12,8 +13,11 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kThesisClock_mhz = 100.0;
 
-std::string sizeName(const cv::Size& size) {
-  return std::to_string(size.width) + "x" + std::to_string(size.height);
+/// Clocks from the last pixel to the last line, but for lines that wait for others.
+int tailBound(const AcceleratorModel& model) {
+  const int words = model.size.width / model.pixels_per_clock;
+  const int bins = 2 * rhoReach(model.size.width, model.size.height) + 1;
+  return (4 + model.shape.hysteresis_passes) * words + bins + 60;
 }
 
 /// What an entry of measured.json found, without where it comes from.
@@ -69,7 +73,7 @@ Json acceleratorFigures(const std::vector<SoftwareTimes>& software,
                                     {"comparators", 3024},
                                     {"multiplexers", 1992}},
                                    "Hough, the thesis' twelve angles");
-  figures["whole"] = {{"title", "all with two passes of hysteresis, queues and buses"},
+  figures["whole"] = {{"title", "all with four passes of hysteresis, queues and buses"},
                       {"xc6s", found(measured, "accelerator.xc6s")},
                       {"xc7", found(measured, "accelerator.xc7")}};
   figures["clock_rate"] = {{"thesis", {{"part", "Spartan-6"}, {"canny_mhz", 103.916}}}};
@@ -108,6 +112,8 @@ Json acceleratorFigures(const std::vector<SoftwareTimes>& software,
          {"canny_clocks", times.canny_clocks},
          {"clocks", times.clocks},
          {"clocks_after_last_pixel", times.tail_clocks},
+         {"clocks_after_last_pixel_at_most", tailBound(times.model)},
+         {"lines_that_wait", times.waiting_lines},
          {"sustained_clocks_per_frame", times.sustained_clocks},
          {"clock_mhz", kThesisClock_mhz},
          {"canny_ms", ms(times.canny_clocks)},

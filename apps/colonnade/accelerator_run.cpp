@@ -23,13 +23,9 @@
 namespace colonnade {
 namespace {
 
-std::string nameOf(const cv::Size& size) {
-  return std::to_string(size.width) + "x" + std::to_string(size.height);
-}
-
 std::string modelNames() {
   std::vector<std::string> names;
-  for (const cv::Size& size : modelSizes()) names.push_back(nameOf(size));
+  for (const cv::Size& size : modelSizes()) names.push_back(sizeName(size));
   return joined(names, ", ");
 }
 
@@ -39,7 +35,7 @@ class Bench {
   explicit Bench(const AcceleratorRunArguments& arguments) : arguments_(arguments) {
     if (arguments.size.empty()) return;
     for (const cv::Size& size : modelSizes())
-      if (nameOf(size) == arguments.size) scaled_to_ = size;
+      if (sizeName(size) == arguments.size) scaled_to_ = size;
     if (scaled_to_.empty())
       throw Error(
           "--size " + arguments.size + ": there is no model of it; there are: " + modelNames(),
@@ -63,15 +59,11 @@ class Bench {
       opencv_.hough();
     }));
     const AcceleratorResult result = accelerator_->wait();
-    std::string difference = result.detail;
-    if (result.fault == AcceleratorFault::kNone) {
-      if (cv::norm(result.found.edges, expected.edges, cv::NORM_L1) != 0.0)
-        difference = "edges differ";
-      if (result.found.lines != expected.lines) difference = "lines differ";
-    }
+    const std::string difference = differenceFrom(expected, result);
     if (!difference.empty())
       throw Error(arguments_.log.string() + ": frame " + std::to_string(frame.index) +
-                  ": the model's answer is not that of fixed: " + difference);
+                  ": the model's answer is not that of fixed: " + difference +
+                  (result.detail.empty() ? "" : ": " + result.detail));
     clocks.push_back(result.clocks);
     lines.push_back(static_cast<double>(expected.lines.size()));
     size = gray.size();
@@ -87,8 +79,8 @@ class Bench {
   void connect(const cv::Size& size_of_frames) {
     auto transport = makeModelTransport(size_of_frames);
     if (!transport)
-      throw Error(arguments_.log.string() + ": no model for frames of " + nameOf(size_of_frames) +
-                      "; scale them: --size " + nameOf(modelSizes().front()) +
+      throw Error(arguments_.log.string() + ": no model for frames of " + sizeName(size_of_frames) +
+                      "; scale them: --size " + sizeName(modelSizes().front()) +
                       " (there are: " + modelNames() + ")",
                   ExitCode::kUsage);
     accelerator_ = std::make_unique<Accelerator>(std::move(transport), stage_.shape());
@@ -141,7 +133,7 @@ ExitCode acceleratorRun(const AcceleratorRunArguments& arguments) {
       "board      %s ms a frame at %s MHz, at least %s frames/s\n"
       "fixed      %s ms a frame on this processor, one thread\n"
       "OpenCV     %s ms a frame, Canny and HoughLines over all angles: %s times fixed on average\n",
-      bench.clocks.size(), nameOf(bench.size).c_str(), spread(bench.lines, 0).c_str(),
+      bench.clocks.size(), sizeName(bench.size).c_str(), spread(bench.lines, 0).c_str(),
       spread(bench.clocks, 0).c_str(), formatFixed(board_ms, 3).c_str(),
       formatDouble(arguments.clock_mhz, 6).c_str(), formatFixed(1000.0 / board_ms, 0).c_str(),
       spread(bench.fixed_ms, 3).c_str(), spread(bench.opencv_ms, 3).c_str(),

@@ -45,6 +45,7 @@ struct HardwareTimes {
   std::uint32_t canny_clocks = 0;      ///< first pixel in to last edge out
   std::uint32_t clocks = 0;            ///< first pixel in to last line out
   std::uint32_t tail_clocks = 0;       ///< last pixel in to last line out
+  std::size_t waiting_lines = 0;       ///< that leave a clock later, as others fire in their step
   std::uint32_t sustained_clocks = 0;  ///< from frame to frame, when they follow without a gap
 };
 

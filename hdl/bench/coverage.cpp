@@ -66,7 +66,8 @@ int main(int argc, char** argv) {
   for (std::size_t frame = 1; frame <= frames; ++frame) {
     simulation.stalls = {};
     if (frame % 3 == 0)
-      simulation.stalls = {static_cast<int>(random() % 600), static_cast<int>(random() % 600), 900};
+      simulation.stalls = {static_cast<int>(random() % 600), static_cast<int>(random() % 600), 900,
+                           static_cast<int>(random() % 600)};
     const std::uint32_t low = random() % 120;
     simulation.write(0x30, (low + random() % 200) << 16 | low);
     const std::uint32_t votes = frame % 5 == 0 ? 2047 : 2 + random() % 20;

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <deque>
 #include <memory>
+#include <optional>
 #include <random>
 #include <type_traits>
 #include <vector>
@@ -21,7 +22,7 @@ struct VideoWord {
 };
 
 /// The Verilated accelerator with a master on its video input, slaves on its outputs and an
-/// AXI4-Lite master, the streams of which may stall at random. Protocol: values offered stay until they are
+/// AXI4-Lite master, all of which may stall at random. Protocol: values offered stay until they are
 /// taken.
 template <class Model>
 class Simulation {
@@ -31,11 +32,13 @@ class Simulation {
   }
   ~Simulation() { model_.final(); }
 
-  /// Chances in 1024 that a master or slave does nothing in a clock.
+  /// Chances in 1024 that a master or slave does nothing in a clock; for `registers` on each of the
+  /// five AXI4-Lite channels, so that an address and its data come apart.
   struct Stalls {
     int video = 0;
     int edges = 0;
     int lines = 0;
+    int registers = 0;
   } stalls;
 
   std::deque<VideoWord> video;              ///< still to be sent
@@ -44,6 +47,8 @@ class Simulation {
   std::vector<std::size_t> packet_ends;     ///< positions in `lines` behind each packet
   std::vector<std::uint64_t> frame_starts;  ///< clocks in which a start of frame was taken
   std::uint64_t clock = 0;
+  std::uint64_t write_answers = 0;  ///< AXI4-Lite responses taken
+  std::uint64_t read_answers = 0;
 
   /// Pulls the reset, at any moment, and forgets all that is queued and received.
   void reset() {
@@ -66,38 +71,63 @@ class Simulation {
     model_.eval();
     takeVideo();
     receive();
-    const bool write_taken = model_.s_axil_awvalid && model_.s_axil_awready;
+    const bool address_taken = model_.s_axil_awvalid && model_.s_axil_awready;
+    const bool data_taken = model_.s_axil_wvalid && model_.s_axil_wready;
     const bool read_taken = model_.s_axil_arvalid && model_.s_axil_arready;
-    write_done_ = model_.s_axil_bvalid && model_.s_axil_bready;
-    read_done_ = model_.s_axil_rvalid && model_.s_axil_rready;
-    read_data_ = model_.s_axil_rdata;
+    if (model_.s_axil_bvalid && model_.s_axil_bready) ++write_answers;
+    if (model_.s_axil_rvalid && model_.s_axil_rready) {
+      ++read_answers;
+      read_data_ = model_.s_axil_rdata;
+    }
     model_.clk = 1;
     model_.eval();
     if (taken_) model_.s_axis_tvalid = 0;
-    if (write_taken) model_.s_axil_awvalid = model_.s_axil_wvalid = 0;
+    if (address_taken) model_.s_axil_awvalid = 0;
+    if (data_taken) model_.s_axil_wvalid = 0;
     if (read_taken) model_.s_axil_arvalid = 0;
     ++clock;
   }
 
-  /// strobes: one bit for each byte to be written.
-  void write(std::uint32_t offset, std::uint32_t value, int strobes = 15) {
-    assign(model_.s_axil_awaddr, offset);
-    model_.s_axil_wdata = value;
-    assign(model_.s_axil_wstrb, strobes);
-    model_.s_axil_awvalid = model_.s_axil_wvalid = model_.s_axil_bready = 1;
-    do cycle();
-    while (!write_done_);
-  }
-
-  bool interrupt() const { return model_.irq != 0; }
-
-  std::uint32_t read(std::uint32_t offset) {
-    assign(model_.s_axil_araddr, offset);
-    model_.s_axil_arvalid = model_.s_axil_rready = 1;
-    do cycle();
-    while (!read_done_);
+  struct Write {
+    std::uint32_t offset = 0;
+    std::uint32_t value = 0;
+    int strobes = 15;  ///< one bit for each byte to be written
+  };
+  /// A write, a read, or both at the same time; returns what was read.
+  std::uint32_t access(std::optional<Write> write, std::optional<std::uint32_t> read) {
+    const std::uint64_t write_end = write_answers + write.has_value();
+    const std::uint64_t read_end = read_answers + read.has_value();
+    bool address = write.has_value();  // still to be offered
+    bool data = write.has_value();
+    while (write_answers < write_end || read_answers < read_end) {
+      if (address && !chance(stalls.registers)) {
+        assign(model_.s_axil_awaddr, write->offset);
+        model_.s_axil_awvalid = 1;
+        address = false;
+      }
+      if (data && !chance(stalls.registers)) {
+        model_.s_axil_wdata = write->value;
+        assign(model_.s_axil_wstrb, write->strobes);
+        model_.s_axil_wvalid = 1;
+        data = false;
+      }
+      if (read && !chance(stalls.registers)) {
+        assign(model_.s_axil_araddr, *read);
+        model_.s_axil_arvalid = 1;
+        read.reset();
+      }
+      model_.s_axil_bready = !chance(stalls.registers);
+      model_.s_axil_rready = !chance(stalls.registers);
+      cycle();
+    }
     return read_data_;
   }
+  void write(std::uint32_t offset, std::uint32_t value, int strobes = 15) {
+    access(Write{offset, value, strobes}, std::nullopt);
+  }
+  std::uint32_t read(std::uint32_t offset) { return access(std::nullopt, offset); }
+
+  bool interrupt() const { return model_.irq != 0; }
 
  private:
   template <class Port, class Value>
@@ -135,8 +165,6 @@ class Simulation {
   Model model_;
   std::mt19937 random_;
   bool taken_ = false;
-  bool write_done_ = false;
-  bool read_done_ = false;
   std::uint32_t read_data_ = 0;
 };
 

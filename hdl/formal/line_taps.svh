@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Colonnade authors
 // SPDX-License-Identifier: BSD-3-Clause
-// line_taps behind a raster of whole lines: its address is the word's place in the line, so it stays
-// inside its memory, and no word is written where one is read.
+// line_taps behind a raster of whole lines: it writes at the word's place in the line, so it stays inside
+// its memory, and reads what stands above the next word.
   logic f_started_q = 1'b0;
   always_ff @(posedge clk_i) f_started_q <= 1'b1;
   always_comb assume (rst_i == !f_started_q);
@@ -11,5 +11,6 @@
   always_comb if (valid_i) assume (!rst_i && position_i.last_word == (32'(f_word_q) == WORDS - 1));
   always_comb if (f_started_q) begin
     assert (32'(f_word_q) < WORDS && address_q == f_word_q);
-    if (valid_q) assert (32'(address_d1_q) < WORDS && address_d1_q != address_q);
+    assert (32'(read_address_q) == (32'(f_word_q) == WORDS - 1 ? 0 : 32'(f_word_q) + 1));
+    assert (read_address_q != address_q);
   end

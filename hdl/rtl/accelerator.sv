@@ -163,7 +163,9 @@ module accelerator #(
 
   control_registers #(
     .SIZE({16'(HEIGHT), 16'(WIDTH)}),
-    .SHAPE({7'd0, BANKS != 0, 8'(PASSES), 8'(ANGLES), 8'(PPC)})
+    .SHAPE((32'(PPC) << accelerator_pkg::SHAPE_PIXELS_LSB) | (32'(ANGLES) << accelerator_pkg::SHAPE_ANGLES_LSB) |
+           (32'(PASSES) << accelerator_pkg::SHAPE_PASSES_LSB) |
+           (32'(BANKS != 0) << accelerator_pkg::SHAPE_SHARED_LSB))
   ) u_registers (
     .clk_i(clk), .rst_i(rst), .s_axil_awaddr(s_axil_awaddr), .s_axil_awvalid(s_axil_awvalid),
     .s_axil_awready(s_axil_awready), .s_axil_wdata(s_axil_wdata), .s_axil_wstrb(s_axil_wstrb),

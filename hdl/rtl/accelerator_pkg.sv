@@ -30,6 +30,20 @@ package accelerator_pkg;
   localparam logic [7:0] REG_ENABLE4 = 8'h60;
   localparam logic [7:0] REG_ENABLE5 = 8'h64;
 
+  localparam int CONTROL_START_LSB = 0;
+  localparam int CONTROL_DONE_LSB = 1;
+  localparam int CONTROL_IDLE_LSB = 2;
+  localparam int CONTROL_AUTO_RESTART_LSB = 7;
+  localparam int SHAPE_PIXELS_LSB = 0;  // 8 bits
+  localparam int SHAPE_ANGLES_LSB = 8;  // 8 bits
+  localparam int SHAPE_PASSES_LSB = 16;  // 8 bits
+  localparam int SHAPE_SHARED_LSB = 24;
+  localparam int STATUS_LINE_SHORT_LSB = 0;
+  localparam int STATUS_LINE_LONG_LSB = 1;
+  localparam int STATUS_FRAME_SHORT_LSB = 2;
+  localparam int STATUS_NO_START_LSB = 3;
+  localparam int STATUS_LATE_WRITE_LSB = 4;
+
   localparam int FRACTION = 12;  // bits of the sine table
   localparam int TRIG_WIDTH = 14;
   localparam int ALL_ANGLES = 180;

@@ -21,12 +21,11 @@ module angle_votes #(
   input  wire  [PPC*4-1:0]           edges_i,
   /* verilator lint_on UNUSEDSIGNAL */
   input  wire                        allow_i,      // this angle counts this word
-  input  wire                        advance_i,    // a step of the scan
-  input  wire                        scan_i,       // with advance_i: read this bin
+  input  wire                        scan_i,       // read this bin
   input  wire                        scan_bank_i,
   input  wire  [BIN_WIDTH-1:0]       scan_bin_i,
-  input  wire                        scanned_i,    // the former step read a bin: else 0 comes out
-  output logic [VOTE_WIDTH-1:0]      votes_o       // of the bin read in the former step
+  input  wire                        scanned_i,    // a bin has been read: else 0 comes out
+  output logic [VOTE_WIDTH-1:0]      votes_o
 );
   localparam int FRACTION = accelerator_pkg::FRACTION;
   localparam int TRIG = accelerator_pkg::TRIG_WIDTH;
@@ -61,19 +60,16 @@ module angle_votes #(
     assign vote = valid_i & allow_i & edges_i[p*4+3] & ADMIT[edges_i[p*4 +: 2]];
     vote_memory #(.DEPTH(2 * REACH + 1), .VOTE_WIDTH(VOTE_WIDTH)) u_memory (
       .clk_i(clk_i), .rst_i(rst_i), .vote_i(vote), .vote_bank_i(position_i.bank),
-      .vote_address_i(rho[FRACTION +: BIN_WIDTH]),
+      .vote_lane_i(1'b1), .vote_address_i(rho[FRACTION +: BIN_WIDTH]),
       .scan_i(scan_i), .scan_bank_i(scan_bank_i), .scan_address_i(scan_bin_i),
       .scan_votes_o(votes[p*VOTE_WIDTH +: VOTE_WIDTH])
     );
   end
 
-  logic [VOTE_WIDTH-1:0] total;
   always_comb begin
-    total = '0;
-    for (int p = 0; p < PPC; p++) total = total + votes[p*VOTE_WIDTH +: VOTE_WIDTH];
-  end
-  always_ff @(posedge clk_i) begin
-    if (advance_i) votes_o <= scanned_i ? total : '0;
+    votes_o = '0;
+    if (scanned_i)
+      for (int p = 0; p < PPC; p++) votes_o = votes_o + votes[p*VOTE_WIDTH +: VOTE_WIDTH];
   end
 endmodule
 `default_nettype wire

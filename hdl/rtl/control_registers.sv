@@ -66,7 +66,13 @@ module control_registers #(
   /* verilator lint_off UNUSEDSIGNAL */  // the bits between the fields
   logic [31:0] merged_thresholds, merged_votes, merged_verticals;
   /* verilator lint_on UNUSEDSIGNAL */
-  assign control = {24'd0, auto_q, 4'd0, idle_i, done_q, start_q};
+  always_comb begin
+    control = '0;
+    control[accelerator_pkg::CONTROL_START_LSB] = start_q;
+    control[accelerator_pkg::CONTROL_DONE_LSB] = done_q;
+    control[accelerator_pkg::CONTROL_IDLE_LSB] = idle_i;
+    control[accelerator_pkg::CONTROL_AUTO_RESTART_LSB] = auto_q;
+  end
   assign thresholds = {6'd0, parameters_q.high, 6'd0, parameters_q.low};
   assign votes = {5'd0, parameters_q.inclined_votes, 5'd0, parameters_q.vertical_votes};
   assign verticals = {16'd0, parameters_q.vertical_to, parameters_q.vertical_from};
@@ -101,8 +107,8 @@ module control_registers #(
       if (s_axil_awready) begin
         unique case (s_axil_awaddr)
           accelerator_pkg::REG_CONTROL: if (s_axil_wstrb[0]) begin
-            auto_q <= s_axil_wdata[7];
-            start_q <= s_axil_wdata[0];
+            auto_q <= s_axil_wdata[accelerator_pkg::CONTROL_AUTO_RESTART_LSB];
+            start_q <= s_axil_wdata[accelerator_pkg::CONTROL_START_LSB];
           end
           accelerator_pkg::REG_GIER: if (s_axil_wstrb[0]) global_q <= s_axil_wdata[0];
           accelerator_pkg::REG_IER: if (s_axil_wstrb[0]) enable_q <= s_axil_wdata[1:0];

@@ -9,6 +9,7 @@ line_taps.sv
 word_window.sv
 operators.sv
 vote_memory.sv
+angle_classes.sv
 // level 2
 gaussian.sv
 gradient.sv
@@ -18,7 +19,6 @@ angle_votes.sv
 angle_votes_shared.sv
 edge_queue.sv
 peak_scan.sv
-raster_scan.sv
 // level 3
 video_input.sv
 canny.sv

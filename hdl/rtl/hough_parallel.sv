@@ -53,57 +53,48 @@ module hough_parallel #(
     if (valid_i && position_i.active) row_q <= position_i.last_word ? row + 1'b1 : row;
   end
 
-  // Which angles are vertical: found for one bank and the other in turn, long before a frame's edges
-  // arrive.
-  logic turn_q;
-  logic [7:0] vertical_from, vertical_to;
-  assign vertical_from = turn_q ? parameters1_i.vertical_from : parameters0_i.vertical_from;
-  assign vertical_to = turn_q ? parameters1_i.vertical_to : parameters0_i.vertical_to;
-  always_ff @(posedge clk_i) turn_q <= !rst_i && !turn_q;
+  logic [ANGLES-1:0] vertical0, vertical1, scan_vertical_q;
+  angle_classes #(.ANGLES(ANGLES), .ANGLE_SET(ANGLE_SET)) u_classes (
+    .clk_i(clk_i), .rst_i(rst_i), .verticals0_i({parameters0_i.vertical_to, parameters0_i.vertical_from}),
+    .verticals1_i({parameters1_i.vertical_to, parameters1_i.vertical_from}),
+    .vertical0_o(vertical0), .vertical1_o(vertical1)
+  );
+  always_ff @(posedge clk_i) scan_vertical_q <= scan_bank_o ? vertical1 : vertical0;
 
-  logic [ANGLES-1:0] vertical, allow_q, scan_vertical_q;
-  logic advance, scan, scanned;
+  logic scan, scanned;
   logic [BIN_WIDTH-1:0] scan_bin;
   logic [ANGLES*VOTE_WIDTH-1:0] votes;
   for (genvar a = 0; a < ANGLES; a++) begin : g_angle
-    localparam logic signed [7:0] THETA = $signed(ANGLE_SET[a*8 +: 8] - 8'd90);
-    logic is_vertical, vertical0_q, vertical1_q, vertical_q, enable_q;
-    assign is_vertical = THETA >= $signed(vertical_from) && THETA <= $signed(vertical_to);
-    assign vertical[a] = scan_bank_o ? vertical1_q : vertical0_q;
+    logic vertical_q, enable_q;
     always_ff @(posedge clk_i) begin
-      if (turn_q) vertical1_q <= is_vertical;
-      else vertical0_q <= is_vertical;
-      vertical_q <= position_i.bank ? vertical1_q : vertical0_q;
+      vertical_q <= position_i.bank ? vertical1[a] : vertical0[a];
       enable_q <= position_i.bank ? parameters1_i.enable[a] : parameters0_i.enable[a];
     end
-    assign allow_q[a] = enable_q & (vertical_q | row_counts_q);
     angle_votes #(
       .ANGLE(32'(ANGLE_SET[a*8 +: 8])), .WIDTH(WIDTH), .HEIGHT(HEIGHT), .PPC(PPC), .REACH(REACH),
       .VOTE_WIDTH(VOTE_WIDTH)
     ) u_votes (
       .clk_i(clk_i), .rst_i(rst_i), .valid_i(valid_q), .position_i(position_q), .edges_i(edges_q),
-      .allow_i(allow_q[a]), .advance_i(advance), .scan_i(scan), .scan_bank_i(scan_bank_o),
+      .allow_i(enable_q & (vertical_q | row_counts_q)), .scan_i(scan), .scan_bank_i(scan_bank_o),
       .scan_bin_i(scan_bin), .scanned_i(scanned), .votes_o(votes[a*VOTE_WIDTH +: VOTE_WIDTH])
     );
   end
-  always_ff @(posedge clk_i) scan_vertical_q <= vertical;
-
-  // The last votes need five clocks to reach their memory.
-  logic [5:0] complete_q, complete_bank_q;
+  // The last votes are written two clocks after valid_q, as peak_scan takes up the request; it reads in
+  // the next clock.
+  logic complete_q, complete_bank_q;
   always_ff @(posedge clk_i) begin
-    complete_bank_q <= {complete_bank_q[4:0], position_q.bank};
-    if (rst_i) complete_q <= '0;
-    else complete_q <= {complete_q[4:0], valid_q & position_q.last_row & position_q.last_word};
+    complete_q <= valid_q & position_q.last_row & position_q.last_word & ~rst_i;
+    complete_bank_q <= position_q.bank;
   end
 
   peak_scan #(
     .ANGLES(ANGLES), .ANGLE_SET(ANGLE_SET), .REACH(REACH), .VOTE_WIDTH(VOTE_WIDTH)
   ) u_scan (
-    .clk_i(clk_i), .rst_i(rst_i), .cleared_o(cleared_o), .request_i(complete_q[5]),
-    .request_bank_i(complete_bank_q[5]), .packet_idle_i(packet_idle_i), .vertical_i(scan_vertical_q),
+    .clk_i(clk_i), .rst_i(rst_i), .cleared_o(cleared_o), .request_i(complete_q),
+    .request_bank_i(complete_bank_q), .packet_idle_i(packet_idle_i), .vertical_i(scan_vertical_q),
     .vertical_votes_i(scan_bank_o ? parameters1_i.vertical_votes : parameters0_i.vertical_votes),
     .inclined_votes_i(scan_bank_o ? parameters1_i.inclined_votes : parameters0_i.inclined_votes),
-    .advance_o(advance), .scan_o(scan), .scan_bank_o(scan_bank_o), .scan_bin_o(scan_bin), .scanned_o(scanned),
+    .scan_o(scan), .scan_bank_o(scan_bank_o), .scan_bin_o(scan_bin), .scanned_o(scanned),
     .votes_i(votes), .begin_o(begin_o), .end_o(end_o), .line_valid_o(line_valid_o),
     .line_ready_i(line_ready_i), .line_o(line_o)
   );

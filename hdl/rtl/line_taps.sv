@@ -29,48 +29,43 @@ module line_taps #(
   (* ram_style = "block", no_rw_check *)
   logic [(ROWS-1)*WORD_WIDTH-1:0] memory [WORDS];
   logic [(ROWS-1)*WORD_WIDTH-1:0] older_q;
-  logic [ADDRESS_WIDTH-1:0] address_q, address_d1_q;
-  logic valid_q;
-  stream_pkg::position_t position_q;
-  logic [WORD_WIDTH-1:0] pixels_q;
+  logic [ADDRESS_WIDTH-1:0] read_address_q, address_q;
 
+  // As a word comes in, what is above the next one is read.
   always_ff @(posedge clk_i) begin
     if (valid_i) begin
-      older_q <= memory[address_q];
-      address_d1_q <= address_q;
-      pixels_q <= pixels_i;
-      position_q <= position_i;
+      older_q <= memory[read_address_q];
+      memory[address_q] <= taps[(ROWS-1)*WORD_WIDTH-1:0];
     end
-    if (valid_q) memory[address_d1_q] <= taps[(ROWS-1)*WORD_WIDTH-1:0];
   end
   always_ff @(posedge clk_i) begin
     if (rst_i) begin
-      valid_q <= 1'b0;
+      read_address_q <= ADDRESS_WIDTH'(1);
       address_q <= '0;
-    end else begin
-      valid_q <= valid_i;
-      if (valid_i) address_q <= position_i.last_word ? '0 : address_q + 1'b1;
+    end else if (valid_i) begin
+      read_address_q <= read_address_q == ADDRESS_WIDTH'(WORDS - 1) ? '0 : read_address_q + 1'b1;
+      address_q <= read_address_q;
     end
   end
 
   // Line k back in slice k; what is known of the lines likewise.
   logic [ROWS*WORD_WIDTH-1:0] taps;
-  assign taps = {older_q, pixels_q};
+  assign taps = {older_q, pixels_i};
   logic [ROWS-1:0] first, last;
   logic [ROWS-1:1] first_q, last_q;
   logic [MIDDLE:0] active, bank;
   logic [MIDDLE:1] active_q, bank_q;
-  assign first = {first_q, position_q.first_row && position_q.active};
-  assign last = {last_q, position_q.last_row && position_q.active};
-  assign active = {active_q, position_q.active};
-  assign bank = {bank_q, position_q.bank};
+  assign first = {first_q, position_i.first_row && position_i.active};
+  assign last = {last_q, position_i.last_row && position_i.active};
+  assign active = {active_q, position_i.active};
+  assign bank = {bank_q, position_i.bank};
   always_ff @(posedge clk_i) begin
     if (rst_i) begin
       first_q <= '0;
       last_q <= '0;
       active_q <= '0;
       bank_q <= '0;
-    end else if (valid_q && position_q.last_word) begin
+    end else if (valid_i && position_i.last_word) begin
       first_q <= first[ROWS-2:0];
       last_q <= last[ROWS-2:0];
       active_q <= active[MIDDLE-1:0];
@@ -103,7 +98,7 @@ module line_taps #(
   end
 
   always_ff @(posedge clk_i) begin
-    if (valid_q) begin
+    if (valid_i) begin
       for (int p = 0; p < PPC; p++)
         for (int r = 0; r < ROWS; r++)
           columns_o[(p*ROWS+r)*WIDTH +: WIDTH] <= rows[r*WORD_WIDTH + p*WIDTH +: WIDTH];
@@ -114,14 +109,14 @@ module line_taps #(
       valid_o <= 1'b0;
       position_o <= '0;
     end else begin
-      valid_o <= valid_q;
-      if (valid_q) begin
+      valid_o <= valid_i;
+      if (valid_i) begin
         position_o.active <= active[MIDDLE];
         position_o.bank <= bank[MIDDLE];
         position_o.first_row <= first[MIDDLE];
         position_o.last_row <= last[MIDDLE];
-        position_o.first_word <= position_q.first_word;
-        position_o.last_word <= position_q.last_word;
+        position_o.first_word <= position_i.first_word;
+        position_o.last_word <= position_i.last_word;
       end
     end
   end

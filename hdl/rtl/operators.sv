@@ -27,7 +27,7 @@ module operators (
   logic [9:0] shared01_q, shared23_q;
   logic [43:0] difference_q;
   logic [39:0] size_q;
-  logic [3:0] negative_q, negative_d1_q;
+  logic [3:0] negative_q;
   always_ff @(posedge clk_i) begin
     fi_q <= f + i;
     ad_q <= a + d;
@@ -47,21 +47,28 @@ module operators (
   end
 
   // The largest; of equal ones 0 before 2 before 1 before 3.
-  logic axis, diagonal;
-  assign axis = size_q[20 +: 10] > size_q[0 +: 10];
-  assign diagonal = size_q[30 +: 10] > size_q[10 +: 10];
   logic [9:0] axis_size_q, diagonal_size_q;
-  logic axis_q, diagonal_q;
+  // Compared by the sign of a difference, which is the end of a carry chain; `>` takes a table more.
+  logic axis, diagonal, across;
+  /* verilator lint_off UNUSEDSIGNAL */  // only the signs
+  logic [10:0] axis_margin, diagonal_margin, margin;
+  /* verilator lint_on UNUSEDSIGNAL */
+  assign axis_margin = {1'b0, size_q[0 +: 10]} - {1'b0, size_q[20 +: 10]};
+  assign diagonal_margin = {1'b0, size_q[10 +: 10]} - {1'b0, size_q[30 +: 10]};
+  assign margin = {1'b0, axis_size_q} - {1'b0, diagonal_size_q};
+  assign {axis, diagonal, across} = {axis_margin[10], diagonal_margin[10], margin[10]};
+  logic axis_q, diagonal_q, axis_negative_q, diagonal_negative_q;
   always_ff @(posedge clk_i) begin
     axis_q <= axis;
     axis_size_q <= axis ? size_q[20 +: 10] : size_q[0 +: 10];
+    axis_negative_q <= axis ? negative_q[2] : negative_q[0];
     diagonal_q <= diagonal;
     diagonal_size_q <= diagonal ? size_q[30 +: 10] : size_q[10 +: 10];
-    negative_d1_q <= negative_q;
-    if (diagonal_size_q > axis_size_q)
-      gradient_o <= {diagonal_q ? negative_d1_q[3] : negative_d1_q[1], diagonal_q, 1'b1, diagonal_size_q};
+    diagonal_negative_q <= diagonal ? negative_q[3] : negative_q[1];
+    if (across)
+      gradient_o <= {diagonal_negative_q, diagonal_q, 1'b1, diagonal_size_q};
     else
-      gradient_o <= {axis_q ? negative_d1_q[2] : negative_d1_q[0], axis_q, 1'b0, axis_size_q};
+      gradient_o <= {axis_negative_q, axis_q, 1'b0, axis_size_q};
   end
 endmodule
 `default_nettype wire

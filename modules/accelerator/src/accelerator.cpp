@@ -3,6 +3,7 @@
 #include "colonnade/accelerator/accelerator.hpp"
 
 #include <algorithm>
+#include <opencv2/core.hpp>
 #include <tuple>
 
 #include "colonnade/base/error.hpp"
@@ -12,13 +13,14 @@ namespace colonnade {
 namespace {
 
 constexpr int kStep = 1024;  // clocks between two looks
-constexpr std::uint32_t kAutoRestart = 0x80;
-constexpr std::uint32_t kDataBeforeFrame = 0x8;  // of STATUS
-constexpr std::uint32_t kWrittenInMidFrame = 0x10;
 constexpr std::size_t kFrameWords = 3;  // of a packet, beside the lines: id, count, clocks
 
 std::uint32_t halves(int high, int low) {
   return static_cast<std::uint32_t>(high & 0xffff) << 16 | static_cast<std::uint32_t>(low & 0xffff);
+}
+
+std::uint32_t field(std::uint32_t word, int lsb, int width) {
+  return word >> lsb & ((1U << width) - 1);
 }
 
 int signedField(std::uint32_t word, int lsb, int width) {
@@ -29,21 +31,46 @@ FixedLine toLine(std::uint32_t word) {
   return {
       signedField(word, registers::kLineThetaLsb, registers::kLineThetaWidth),
       signedField(word, registers::kLineRhoLsb, registers::kLineRhoWidth),
-      static_cast<int>(word >> registers::kLineVotesLsb & ((1U << registers::kLineVotesWidth) - 1)),
-      static_cast<int>(word >> registers::kLineClassLsb & 1)};
+      static_cast<int>(field(word, registers::kLineVotesLsb, registers::kLineVotesWidth)),
+      static_cast<int>(field(word, registers::kLineClassLsb, registers::kLineClassWidth))};
 }
 
 std::string faultNames(std::uint32_t faults) {
-  static constexpr const char* kNames[] = {"a line too short", "a line too long",
-                                           "a frame too short", "data before a start of frame"};
+  static constexpr std::pair<std::uint32_t, const char*> kNames[] = {
+      {registers::kStatusLineShort, "a line too short"},
+      {registers::kStatusLineLong, "a line too long"},
+      {registers::kStatusFrameShort, "a frame too short"},
+      {registers::kStatusNoStart, "data before a start of frame"}};
   std::string names;
-  for (std::size_t i = 0; i < std::size(kNames); ++i) {
-    if (faults >> i & 1) names += (names.empty() ? "" : ", ") + std::string(kNames[i]);
+  for (const auto& [bit, name] : kNames) {
+    if ((faults & bit) != 0) names += (names.empty() ? "" : ", ") + std::string(name);
   }
   return names;
 }
 
 }  // namespace
+
+std::string sizeName(const cv::Size& size) {
+  return std::to_string(size.width) + "x" + std::to_string(size.height);
+}
+
+std::string differenceFrom(const FixedResult& expected, const AcceleratorResult& result) {
+  switch (result.fault) {
+    case AcceleratorFault::kHang:
+      return "device hangs";
+    case AcceleratorFault::kBadFrame:
+      return "device got a broken frame";
+    case AcceleratorFault::kLateWrite:
+      return "device had a register written in mid-frame";
+    case AcceleratorFault::kBadPacket:
+      return "device sent a broken packet";
+    case AcceleratorFault::kNone:
+      break;
+  }
+  if (cv::norm(result.found.edges, expected.edges, cv::NORM_L1) != 0.0) return "edges differ";
+  if (result.found.lines != expected.lines) return "lines differ";
+  return {};
+}
 
 Accelerator::Accelerator(std::unique_ptr<AcceleratorTransport> transport, FixedShape shape)
     : transport_(std::move(transport)), shape_(std::move(shape)) {
@@ -55,8 +82,8 @@ Accelerator::Accelerator(std::unique_ptr<AcceleratorTransport> transport, FixedS
                 ", version " + std::to_string(version) + "); load the bitstream of this release");
   }
   const std::uint32_t built = transport_->readRegister(registers::kShape);
-  const auto angles = static_cast<std::size_t>(built >> 8 & 255);
-  const int passes = static_cast<int>(built >> 16 & 255);
+  const auto angles = static_cast<std::size_t>(field(built, registers::kShapeAnglesLsb, registers::kShapeAnglesWidth));
+  const auto passes = static_cast<int>(field(built, registers::kShapePassesLsb, registers::kShapePassesWidth));
   if (angles != shape_.angles_deg.size() || passes != shape_.hysteresis_passes) {
     throw Error("accelerator: the device is built for " + std::to_string(angles) + " angles and " +
                 std::to_string(passes) + " passes, not " +
@@ -65,7 +92,7 @@ Accelerator::Accelerator(std::unique_ptr<AcceleratorTransport> transport, FixedS
   }
   const std::uint32_t size = transport_->readRegister(registers::kSize);
   size_ = {static_cast<int>(size & 0xffff), static_cast<int>(size >> 16)};
-  // Four frames' pixels and, where angles share memories, all bins of all angles.
+  // Four frames' pixels and, where angles share memories, some turns for many of them.
   const int bins = 2 * rhoReach(size_.width, size_.height) + 1;
   patience_ = 4 * (size_.area() + static_cast<int>(angles) * bins) + 100 * kStep;
   start();
@@ -75,7 +102,7 @@ Accelerator::~Accelerator() = default;
 
 void Accelerator::start() {
   transport_->writeRegister(registers::kFrameId, next_id_);
-  transport_->writeRegister(registers::kControl, kAutoRestart);
+  transport_->writeRegister(registers::kControl, registers::kControlAutoRestart);
   configured_ = false;
   sent_ = 0;
 }
@@ -105,8 +132,7 @@ void Accelerator::configure(const FixedParameters& parameters) {
 std::uint16_t Accelerator::submit(const cv::Mat& gray) {
   if (gray.type() != CV_8UC1 || gray.size() != size_) {
     throw Error("accelerator: the device takes 8-bit gray images of " +
-                std::to_string(size_.width) + "x" + std::to_string(size_.height) + ", not " +
-                std::to_string(gray.cols) + "x" + std::to_string(gray.rows));
+                sizeName(size_) + ", not " + sizeName(gray.size()));
   }
   if (!canSubmit()) throw Error("accelerator: two frames are on their way; take a result first");
   // A register written while a frame comes in would count for the next one; wait for its end.
@@ -158,11 +184,11 @@ std::optional<AcceleratorResult> Accelerator::take() {
     fault(AcceleratorFault::kBadPacket, "the device has taken " + std::to_string(taken) +
                                             " frames of " + std::to_string(sent_));
   }
-  if ((status & kDataBeforeFrame) != 0) {
-    fault(AcceleratorFault::kBadFrame, faultNames(kDataBeforeFrame));
+  if ((status & registers::kStatusNoStart) != 0) {
+    fault(AcceleratorFault::kBadFrame, faultNames(registers::kStatusNoStart));
   }
   // submit() never does that; another master on the bus may.
-  if ((status & kWrittenInMidFrame) != 0) {
+  if ((status & registers::kStatusLateWrite) != 0) {
     fault(AcceleratorFault::kLateWrite, "a parameter was written in mid-frame");
   }
   return result;

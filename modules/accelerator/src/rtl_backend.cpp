@@ -3,20 +3,11 @@
 #include "colonnade/accelerator/rtl_backend.hpp"
 
 #include <algorithm>
-#include <opencv2/core.hpp>
 
 #include "colonnade/accelerator/model_transport.hpp"
 #include "colonnade/base/error.hpp"
 
 namespace colonnade {
-namespace {
-
-std::string sizeName(int width, int height) {
-  return std::to_string(width) + "x" + std::to_string(height);
-}
-
-}  // namespace
-
 RtlBackend::RtlBackend(const EdgeOptions& options, Connect connect)
     : options_(options), connect_(std::move(connect)), stage_(runShape()) {}
 
@@ -31,25 +22,6 @@ RtlBackend::Device& RtlBackend::deviceFor(const cv::Size& size) {
   return entry->second;
 }
 
-std::string RtlBackend::differenceOf(const AcceleratorResult& result,
-                                     const FixedResult& expected) const {
-  switch (result.fault) {
-    case AcceleratorFault::kHang:
-      return "device hangs";
-    case AcceleratorFault::kBadFrame:
-      return "device got a broken frame";
-    case AcceleratorFault::kLateWrite:
-      return "device had a register written in mid-frame";
-    case AcceleratorFault::kBadPacket:
-      return "device sent a broken packet";
-    case AcceleratorFault::kNone:
-      break;
-  }
-  if (cv::norm(result.found.edges, expected.edges, cv::NORM_L1) != 0.0) return "edges differ";
-  if (result.found.lines != expected.lines) return "lines differ";
-  return {};
-}
-
 EdgeLines RtlBackend::process(const cv::Mat& gray, const EdgeView& view) {
   const auto parameters = runParameters(stage_.shape(), options_, view, gray.cols, gray.rows);
   Device& device = deviceFor(gray.size());
@@ -60,7 +32,7 @@ EdgeLines RtlBackend::process(const cv::Mat& gray, const EdgeView& view) {
   FixedResult expected = stage_.process(gray, parameters);
   if (device.accelerator) {
     const auto result = device.accelerator->wait();
-    const std::string difference = differenceOf(result, expected);
+    const std::string difference = differenceFrom(expected, result);
     if (difference.empty()) {
       device.clocks.push_back(result.clocks);
     } else {
@@ -80,10 +52,10 @@ EdgeLines RtlBackend::process(const cv::Mat& gray, const EdgeView& view) {
 std::vector<std::string> RtlBackend::notes() const {
   std::vector<std::string> notes;
   for (const auto& [size, device] : devices_) {
-    const std::string name = sizeName(size.first, size.second);
+    const std::string name = sizeName({size.first, size.second});
     if (!device.accelerator) {
       std::string sizes;
-      for (const auto& model : modelSizes()) sizes += " " + sizeName(model.width, model.height);
+      for (const auto& model : modelSizes()) sizes += " " + sizeName(model);
       notes.push_back("rtl: no model for " + name + ", left to the CPU; there are:" + sizes);
     } else if (!device.clocks.empty()) {
       auto clocks = device.clocks;

@@ -27,6 +27,12 @@ struct AcceleratorResult {
   std::uint32_t clocks = 0;  ///< from the first pixel to the last word of the line packet
 };
 
+/// What is wrong with a result, by name; empty if it is that of `fixed`.
+std::string differenceFrom(const FixedResult& expected, const AcceleratorResult& result);
+
+/// WIDTHxHEIGHT, as options and messages name sizes.
+std::string sizeName(const cv::Size& size);
+
 /// The host's side of a device: configure, submit, then poll or wait; two frames may be on their
 /// way.
 class Accelerator {

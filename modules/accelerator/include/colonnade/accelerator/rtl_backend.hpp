@@ -29,7 +29,6 @@ class RtlBackend : public EdgeLineBackend {
   };
   EdgeLines process(const cv::Mat& gray, const EdgeView& view) override;
   Device& deviceFor(const cv::Size& size);
-  std::string differenceOf(const AcceleratorResult& result, const FixedResult& expected) const;
 
   EdgeOptions options_;
   Connect connect_;

@@ -35,6 +35,24 @@ inline constexpr std::uint32_t kEnable3 = 0x5C;
 inline constexpr std::uint32_t kEnable4 = 0x60;
 inline constexpr std::uint32_t kEnable5 = 0x64;
 
+// Fields of registers: a single bit as a mask, others by lowest bit and width.
+inline constexpr std::uint32_t kControlStart = 1U << 0;
+inline constexpr std::uint32_t kControlDone = 1U << 1;
+inline constexpr std::uint32_t kControlIdle = 1U << 2;
+inline constexpr std::uint32_t kControlAutoRestart = 1U << 7;
+inline constexpr int kShapePixelsLsb = 0;
+inline constexpr int kShapePixelsWidth = 8;
+inline constexpr int kShapeAnglesLsb = 8;
+inline constexpr int kShapeAnglesWidth = 8;
+inline constexpr int kShapePassesLsb = 16;
+inline constexpr int kShapePassesWidth = 8;
+inline constexpr std::uint32_t kShapeShared = 1U << 24;
+inline constexpr std::uint32_t kStatusLineShort = 1U << 0;
+inline constexpr std::uint32_t kStatusLineLong = 1U << 1;
+inline constexpr std::uint32_t kStatusFrameShort = 1U << 2;
+inline constexpr std::uint32_t kStatusNoStart = 1U << 3;
+inline constexpr std::uint32_t kStatusLateWrite = 1U << 4;
+
 // Fields of a line word.
 inline constexpr int kLineVotesLsb = 0;
 inline constexpr int kLineVotesWidth = 11;
