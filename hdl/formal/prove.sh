@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Proofs for all time (k-induction) with yosys-smtbmc and z3. The properties in MODULE.svh are put
 # inside a copy of the module. Each proof is followed by a mutated design that must fail it.
-# prove.sh [MODULE ...]
+# prove.sh [MODULE ...]      exit 1: a proof fails or a mutated design passes; 2: a tool gave no answer
 set -euo pipefail
 cd "$(dirname "$0")"
 for tool in yosys yosys-smtbmc z3; do
@@ -17,7 +17,7 @@ wanted=" $* "
 # an error of the tools and ends it all
 solved() {
   local log=$work/$1.log
-  yosys-smtbmc --unroll --noprogress -s z3 ${3:-} -t "$2" "$work/$1.smt2" >"$log" 2>&1 || true
+  yosys-smtbmc --unroll --noprogress -s "${COLONNADE_SOLVER:-z3}" ${3:-} -t "$2" "$work/$1.smt2" >"$log" 2>&1 || true
   if grep -q "Status: PASSED" "$log"; then return 0; fi
   if grep -q "Status: FAILED" "$log" && grep -q "Assert failed in\|Temporal induction failed" "$log"; then return 1; fi
   tail -n 20 "$log" >&2

@@ -317,7 +317,9 @@ TYPED_TEST(Rtl, TakesFramesWithoutAGap) {
   for (unsigned i = 0; i < 5; ++i) this->expectExact(i, this->randomImage(3 * i + 1), p);
   const auto& starts = this->simulation.frame_starts;
   ASSERT_EQ(starts.size(), 5U);
-  for (std::size_t i = 1; i < starts.size() && TypeParam::parallel; ++i) {
+  // Where votes do not queue for long, as in the shape of `run`.
+  const bool sustained = TypeParam::parallel || TypeParam::size().width == 320;
+  for (std::size_t i = 1; i < starts.size() && sustained; ++i) {
     EXPECT_EQ(starts[i] - starts[i - 1],
               static_cast<std::uint64_t>(TypeParam::size().area() / TypeParam::ppc));
   }
