@@ -50,6 +50,21 @@ TEST(Pose2, JacobiansAgreeWithNumericOnes) {
   EXPECT_LT((J_pose - by_pose).cwiseAbs().maxCoeff(), 1e-8);
 }
 
+TEST(Pose2, ExponentialIsManySmallSteps) {
+  for (const Eigen::Vector3d& xi :
+       {Eigen::Vector3d(0.7, -2.0, 1.1), Eigen::Vector3d(3.0, 1.0, -2.9),
+        Eigen::Vector3d(0.4, 0.2, 1e-6), Eigen::Vector3d(1.0, 0.0, 0.0)}) {
+    constexpr int kSteps = 100'000;
+    Pose2 small{xi(0) / kSteps, xi(1) / kSteps, xi(2) / kSteps}, all;
+    for (int i = 0; i < kSteps; ++i) all = all * small;
+    const Pose2 T = exponential(xi);
+    EXPECT_LT((T.translation() - all.translation()).norm(), 1e-4);
+    EXPECT_NEAR(T.phi, all.phi, 1e-9);
+  }
+  // The two ways to the spread meet.
+  EXPECT_LT((spreadOverTurn(0.99e-4) - spreadOverTurn(1.01e-4)).norm(), 2e-6);
+}
+
 TEST(Angle, WrapsIntoItsInterval) {
   EXPECT_NEAR(wrapAngle(3.5 * kPi), -0.5 * kPi, 1e-12);
   EXPECT_NEAR(wrapQuarterTurn(radians(89.0)), radians(-1.0), 1e-12);

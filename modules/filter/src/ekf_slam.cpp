@@ -14,9 +14,6 @@ namespace {
 
 /// Farther than any sensor of a robot sees.
 constexpr double kLongestRange_m = 1e4;
-/// No sensor is better than this (metres and radians). One that states less would make the
-/// innovation covariance singular at the second look, and be refused for good.
-constexpr double kSmallestSigma = 1e-5;
 
 /// Finite, and a range, where there is one, that a sensor can have measured.
 bool isUsable(const Measurement& m) {
@@ -24,12 +21,6 @@ bool isUsable(const Measurement& m) {
   if (!m.hasRange()) return true;
   const bool is_line = m.kind == LandmarkKind::kFloorEdge;  // the distance to a line has a sign
   return std::abs(m.z(1)) < kLongestRange_m && (is_line || m.z(1) > 0.0);
-}
-
-MeasurementCovariance noiseOf(const Measurement& m) {
-  MeasurementCovariance R = m.R;
-  R.diagonal() = R.diagonal().cwiseMax(kSmallestSigma * kSmallestSigma);
-  return R;
 }
 
 bool isCovariance(const Eigen::MatrixXd& Q) {

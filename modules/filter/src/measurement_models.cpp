@@ -9,6 +9,10 @@
 namespace colonnade {
 namespace {
 
+/// No sensor is better than this (metres and radians). One that states less would make the
+/// innovation covariance singular at the second look, and be refused for good.
+constexpr double kSmallestSigma = 1e-5;
+
 Eigen::Vector2d unit(double angle) { return {std::cos(angle), std::sin(angle)}; }
 /// The vector turned by a quarter counter-clockwise: the derivative of a rotation.
 Eigen::Vector2d turned(const Eigen::Vector2d& v) { return {-v.y(), v.x()}; }
@@ -105,6 +109,12 @@ PredictedMeasurement predictMeasurement(const Pose2& T_world_robot, BlockKind ki
     default:
       return predictPoint(T_world_robot, block, like);
   }
+}
+
+MeasurementCovariance noiseOf(const Measurement& measurement) {
+  MeasurementCovariance R = measurement.R;
+  R.diagonal() = R.diagonal().cwiseMax(kSmallestSigma * kSmallestSigma);
+  return R;
 }
 
 MeasurementVector innovationOf(const Measurement& measurement, const MeasurementVector& predicted) {

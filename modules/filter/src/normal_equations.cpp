@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "normal_equations.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <cmath>
+#include <limits>
 
 #include "colonnade/base/angle.hpp"
 #include "colonnade/filter/gate.hpp"
@@ -12,6 +14,8 @@ namespace colonnade {
 namespace {
 
 constexpr double kHuberProbability = 0.99;
+/// Entries of H from each motion, sighting and point.
+constexpr std::size_t kMotionEntries = 36, kSightingEntries = 25, kPointEntries = 2;
 /// A standing robot states no noise at all; its poses are tied to within this.
 constexpr double kStandingSigma = 1e-5;  ///< m and rad
 /// Keeps a point that was only seen along one ray where it is.
@@ -34,6 +38,11 @@ Eigen::Matrix3d informationOf(const Drive::Motion& motion) {
   return (motion.covariance + standing).inverse();
 }
 
+/// Distances beyond this one count linearly.
+double huberBound(Eigen::Index size) {
+  return std::sqrt(chiSquareQuantile(kHuberProbability, static_cast<int>(size)));
+}
+
 /// How (x, y, phi) of a pose moves with xi.
 Eigen::Matrix3d liftOf(const Pose2& T_world_robot) {
   Eigen::Matrix3d lift = Eigen::Matrix3d::Identity();
@@ -46,7 +55,9 @@ Eigen::Matrix3d liftOf(const Pose2& T_world_robot) {
 NormalEquations::NormalEquations(const Drive& drive)
     : poses_(static_cast<Eigen::Index>(drive.T_world_robot.size())),
       g_(Eigen::VectorXd::Zero(pointAt(drive.points_world.size()))) {
-  entries_.reserve(27 * drive.motions.size() + 33 * drive.sightings.size());
+  entries_.reserve(kMotionEntries * drive.motions.size() +
+                   kSightingEntries * drive.sightings.size() +
+                   kPointEntries * drive.points_world.size());
   for (std::size_t k = 1; k < drive.T_world_robot.size(); ++k) addMotion(drive, k);
   for (const Drive::Sighting& sighting : drive.sightings)
     if (sighting.used) addSighting(drive, sighting);
@@ -74,12 +85,11 @@ void NormalEquations::addMotion(const Drive& drive, std::size_t pose) {
 void NormalEquations::addSighting(const Drive& drive, const Drive::Sighting& sighting) {
   const auto expected = predicted(drive, sighting);
   const Eigen::VectorXd residual = -innovationOf(sighting.measurement, expected.z);
-  const Eigen::MatrixXd information = sighting.measurement.R.inverse();
+  const Eigen::MatrixXd information = noiseOf(sighting.measurement).inverse();
   const double distance = std::sqrt(residual.dot(information * residual));
-  const double bound =
-      std::sqrt(chiSquareQuantile(kHuberProbability, static_cast<int>(residual.size())));
+  const double bound = huberBound(residual.size());
   const bool far = distance > bound;
-  cost_ += far ? bound * (2.0 * distance - bound) : distance * distance;
+  cost_ += huberLoss(distance * distance, residual.size());
   const Eigen::MatrixXd weight = (far ? bound / distance : 1.0) * information;
   addPair(poseAt(sighting.pose), pointAt(sighting.point),
           expected.H_robot * liftOf(drive.T_world_robot[sighting.pose]), expected.H_block, weight,
@@ -95,8 +105,8 @@ void NormalEquations::addBlock(Eigen::Index row, Eigen::Index column,
 }
 
 void NormalEquations::addPair(Eigen::Index a, Eigen::Index b, const Eigen::MatrixXd& J_a,
-                              const Eigen::MatrixXd& J_b,
-                              const Eigen::MatrixXd& weight, const Eigen::VectorXd& residual) {
+                              const Eigen::MatrixXd& J_b, const Eigen::MatrixXd& weight,
+                              const Eigen::VectorXd& residual) {
   const Eigen::MatrixXd mixed = J_a.transpose() * weight * J_b;
   addBlock(a, a, J_a.transpose() * weight * J_a);
   addBlock(b, b, J_b.transpose() * weight * J_b);
@@ -113,15 +123,21 @@ void move(Drive& drive, const NormalEquations& at, const Eigen::VectorXd& dx) {
     drive.points_world[i] += dx.segment<2>(at.pointAt(i));
 }
 
+double huberLoss(double distance2, Eigen::Index size) {
+  const double bound = huberBound(size);
+  return distance2 > bound * bound ? bound * (2.0 * std::sqrt(distance2) - bound) : distance2;
+}
+
 double motionDistance2(const Drive& drive, std::size_t pose) {
   const Eigen::Vector3d residual = motionResidual(drive, pose);
   return residual.dot(informationOf(drive.motions[pose]) * residual);
 }
 
 double distance2(const Drive& drive, const Drive::Sighting& sighting) {
-  const Eigen::VectorXd nu =
-      innovationOf(sighting.measurement, predicted(drive, sighting).z);
-  return nu.dot(sighting.measurement.R.inverse() * nu);
+  const Eigen::LLT<Eigen::MatrixXd> R(noiseOf(sighting.measurement));
+  const Eigen::VectorXd nu = innovationOf(sighting.measurement, predicted(drive, sighting).z);
+  const double distance2 = R.info() == Eigen::Success ? nu.dot(R.solve(nu)) : HUGE_VAL;
+  return std::isfinite(distance2) ? distance2 : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace colonnade

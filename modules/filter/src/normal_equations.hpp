@@ -45,7 +45,11 @@ class NormalEquations {
 /// The drive's estimate moved by dx.
 void move(Drive& drive, const NormalEquations& at, const Eigen::VectorXd& dx);
 
-/// Squared Mahalanobis distances of the motion up to a pose (not the first) and of a sighting.
+/// What a squared Mahalanobis distance of a sighting with so many numbers adds to the cost.
+double huberLoss(double distance2, Eigen::Index size);
+
+/// Squared Mahalanobis distances of the motion up to a pose (not the first) and of a sighting;
+/// infinite for a sighting that is not finite or whose R is no covariance.
 double motionDistance2(const Drive& drive, std::size_t pose);
 double distance2(const Drive& drive, const Drive::Sighting& sighting);
 

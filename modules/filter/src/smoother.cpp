@@ -4,6 +4,7 @@
 
 #include <Eigen/SparseCholesky>
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "colonnade/filter/gate.hpp"
@@ -14,12 +15,16 @@ namespace {
 
 constexpr int kMostSteps = 100;
 constexpr int kMostGatings = 5;
-constexpr int kMostMendings = 20;
-/// Of the cost: less gained in a step ends the search.
-constexpr double kConverged = 1e-6;
+/// Trials to mend a stretch: so many, and so many poses in all.
+constexpr std::size_t kMostTrials = 50, kMostPosesTried = 100'000;
+/// A step that gains less, of the cost and in all, ends the search, unless it was held back.
+constexpr double kConverged = 1e-6, kNothing = 1e-9;
 constexpr double kFirstDamping = 1e-4, kLeastDamping = 1e-10, kMostDamping = 1e9;
-/// What damping 1 holds a pose and a point to, m and rad. Damping by the diagonal of H would weigh
-/// the stiffness of the motions, which resist no turn of a long stretch.
+constexpr double kHeldBack = 1e-2;
+/// An unused sighting costs no more than one at the gate of this probability.
+constexpr double kDearest = 0.999999;
+/// What damping 1 holds xi and a point to, m and rad. Damping by the diagonal of H would weigh the
+/// stiffness of the motions, which resist no turn of a long stretch.
 constexpr double kDampedSigma = 0.1;
 /// Two solutions for each point: of more points they take longer than the smoothing.
 constexpr std::size_t kMostCovariances = 500;
@@ -40,83 +45,105 @@ void descend(Drive& drive, Smoothing& result) {
     Sparse damped = H;
     damped.diagonal().array() += damping / (kDampedSigma * kDampedSigma);
     factor.factorize(damped);
-    const Eigen::VectorXd dx = factor.solve(-here.g());
+    if (factor.info() != Eigen::Success) {
+      damping *= 10.0;
+      continue;
+    }
     Drive moved = drive;
-    move(moved, here, dx);
+    move(moved, here, factor.solve(-here.g()));
     NormalEquations there(moved);
     const double gained = here.cost() - there.cost();
-    if (factor.info() != Eigen::Success || !(gained >= 0.0)) {
+    if (!(gained >= 0.0)) {
       damping *= 10.0;
       continue;
     }
     drive = std::move(moved);
     here = std::move(there);
     H = here.H();
-    damping = std::max(0.1 * damping, kLeastDamping);
-    result.converged = gained <= kConverged * here.cost();
+    result.converged =
+        gained <= std::max(kConverged * here.cost(), kNothing) && damping < kHeldBack;
     if (result.converged) break;
+    damping = std::max(0.1 * damping, kLeastDamping);
   }
   result.cost = here.cost();
-}
-
-double boundOf(const Drive::Sighting& sighting, double probability) {
-  return chiSquareQuantile(probability, static_cast<int>(sighting.measurement.z.size()));
 }
 
 /// Whether any sighting came in or went out.
 bool gate(Drive& drive, double probability) {
   bool changed = false;
   for (Drive::Sighting& sighting : drive.sightings) {
-    const bool within = distance2(drive, sighting) <= boundOf(sighting, probability);
+    const auto size = static_cast<int>(sighting.measurement.z.size());
+    const double distance = distance2(drive, sighting);
+    const bool within = std::isfinite(distance) && distance <= chiSquareQuantile(probability, size);
     changed = changed || within != sighting.used;
     sighting.used = within;
   }
   return changed;
 }
 
-/// Descends with the sightings within the gate; each of the others costs what the gate allows.
+/// Descends with the sightings within the gate; each of the others costs as much as one at it.
 void settle(Drive& drive, double probability, Smoothing& result) {
-  for (int gating = 0; gating < kMostGatings; ++gating) {
+  bool settled = false;
+  for (int gating = 0; gating < kMostGatings && !settled; ++gating) {
     descend(drive, result);
-    if (!gate(drive, probability)) break;
+    if (gating + 1 == kMostGatings) break;
+    settled = !gate(drive, probability);
   }
+  result.converged = result.converged && settled;
   result.unused = 0;
   for (const Drive::Sighting& sighting : drive.sightings) {
     if (sighting.used) continue;
     ++result.unused;
-    result.cost += boundOf(sighting, probability);
+    const auto size = sighting.measurement.z.size();
+    result.cost +=
+        huberLoss(chiSquareQuantile(std::min(probability, kDearest), static_cast<int>(size)), size);
   }
 }
 
+/// The drive with the poses from `first` to before `last` moving on as measured from the pose
+/// before, without their sightings; points nothing else saw come along.
+Drive withoutSightings(const Drive& drive, std::size_t first, std::size_t last) {
+  Drive other = drive;
+  const Pose2 shift = drive.T_world_robot[first - 1] * drive.motions[first].T_previous_robot *
+                      drive.T_world_robot[first].inverse();
+  for (std::size_t k = first; k < last; ++k)
+    other.T_world_robot[k] = shift * drive.T_world_robot[k];
+  std::vector<bool> elsewhere(drive.points_world.size(), false);
+  for (Drive::Sighting& sighting : other.sightings) {
+    const bool within = sighting.pose >= first && sighting.pose < last;
+    elsewhere[sighting.point] = elsewhere[sighting.point] || (!within && sighting.used);
+    sighting.used = sighting.used && !within;
+  }
+  for (std::size_t i = 0; i < elsewhere.size(); ++i)
+    if (!elsewhere[i]) other.points_world[i] = transform(shift, drive.points_world[i]);
+  return other;
+}
+
 /// A stretch between two motions that are far from what was measured has been bent to suit its
-/// sightings: each such stretch is tried without them, moving on as measured from the pose before.
-/// Whether that made one cheaper.
-bool mend(Drive& drive, double probability, Smoothing& result) {
+/// sightings: each such stretch is tried without them and left so where that is cheaper.
+void mend(Drive& drive, double probability, Smoothing& result) {
   std::vector<std::size_t> torn;
   for (std::size_t k = 1; k < drive.T_world_robot.size(); ++k)
     if (motionDistance2(drive, k) > chiSquareQuantile(probability, 3)) torn.push_back(k);
-  for (std::size_t i = 0; i + 1 < torn.size(); ++i) {
-    Drive other = drive;
-    const Pose2 shift = drive.T_world_robot[torn[i] - 1] * drive.motions[torn[i]].T_previous_robot *
-                        drive.T_world_robot[torn[i]].inverse();
-    for (std::size_t k = torn[i]; k < torn[i + 1]; ++k)
-      other.T_world_robot[k] = shift * drive.T_world_robot[k];
-    for (Drive::Sighting& sighting : other.sightings)
-      if (sighting.pose >= torn[i] && sighting.pose < torn[i + 1]) sighting.used = false;
+  const std::size_t trials =
+      std::min(kMostTrials, 1 + kMostPosesTried / drive.T_world_robot.size());
+  for (std::size_t i = 0; i + 1 < torn.size() && i < trials; ++i) {
+    Drive other = withoutSightings(drive, torn[i], torn[i + 1]);
     Smoothing how = result;
     settle(other, probability, how);
-    if (how.cost >= result.cost * (1.0 - kConverged)) continue;
+    const bool cheaper = how.cost < result.cost * (1.0 - kConverged);
+    result.steps = how.steps;
+    if (!cheaper) continue;
     drive = std::move(other);
     result = how;
-    return true;
   }
-  return false;
 }
 
 std::vector<Eigen::Matrix2d> pointCovariances(const Drive& drive) {
   const NormalEquations at(drive);
   const Sparse H = at.H();
   const Eigen::SimplicialLDLT<Sparse> factor(H);
+  if (factor.info() != Eigen::Success) return {};
   std::vector<Eigen::Matrix2d> covariances(drive.points_world.size());
   for (std::size_t i = 0; i < covariances.size(); ++i)
     for (Eigen::Index k = 0; k < 2; ++k)
@@ -129,10 +156,11 @@ std::vector<Eigen::Matrix2d> pointCovariances(const Drive& drive) {
 
 Smoothing smooth(Drive& drive, double gate_probability) {
   Smoothing result;
-  if (drive.sightings.empty()) return result;
+  for (Drive::Sighting& sighting : drive.sightings)
+    sighting.used = std::isfinite(distance2(drive, sighting));
+  if (drive.T_world_robot.size() < 2 || drive.sightings.empty()) return result;
   settle(drive, gate_probability, result);
-  for (int mending = 0; mending < kMostMendings; ++mending)
-    if (!mend(drive, gate_probability, result)) break;
+  mend(drive, gate_probability, result);
   if (drive.points_world.size() <= kMostCovariances)
     result.point_covariances = pointCovariances(drive);
   return result;

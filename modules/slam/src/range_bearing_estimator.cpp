@@ -105,14 +105,18 @@ struct RangeBearingEstimator::Impl {
     return frame;
   }
 
-  void predict(const MotionIncrement& motion) {
+  /// Whether the likeliest history's filter took the motion.
+  bool predict(const MotionIncrement& motion) {
+    bool taken = false;
     for (auto& hypothesis : hypotheses) {
       const auto& blocks = hypothesis.filter.state().blocks;
       const bool any = std::any_of(blocks.begin(), blocks.end(),
                                    [](const Block& block) { return block.isLandmark(); });
-      if (any || !options.wait_for_landmark)
-        hypothesis.filter.predict(motion.T_previous_robot, motion.covariance);
+      const bool moves = (any || !options.wait_for_landmark) &&
+                         hypothesis.filter.predict(motion.T_previous_robot, motion.covariance);
+      taken = taken || (moves && &hypothesis == &hypotheses.front());
     }
+    return taken;
   }
 };
 
@@ -134,7 +138,7 @@ RangeBearingReport RangeBearingEstimator::step(double stamp_s, const MotionIncre
   const ReadingFrame frame = self.take(stamp_s, scan, places);
   self.former_stamp_s = stamp_s;
   ++self.frames;
-  self.predict(motion);
+  const bool moved = self.predict(motion);
   for (auto& hypothesis : self.hypotheses) hypothesis.focus(frame);
 
   const bool open = std::any_of(frame.readings.begin(), frame.readings.end(),
@@ -152,7 +156,10 @@ RangeBearingReport RangeBearingEstimator::step(double stamp_s, const MotionIncre
   report.landmarks.assign(scan.readings.size(), std::nullopt);
   report.founded.assign(scan.readings.size(), false);
   report.measurements.assign(scan.readings.size(), std::nullopt);
-  report.motion_covariance = motion.covariance;
+  if (moved) {
+    report.T_previous_robot = motion.T_previous_robot;
+    report.motion_covariance = motion.covariance;
+  }
   for (const Event& event : report.events)
     if (event.what == "lost") report.motion_covariance += lostCovariance();
   for (std::size_t i = 0; i < places.size(); ++i) {

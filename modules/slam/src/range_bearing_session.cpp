@@ -16,6 +16,7 @@ RangeBearingSession::RangeBearingSession(const RangeBearingOptions& options,
       motion_(motion, std::make_shared<CameraTracker>(motion)) {}
 
 void RangeBearingSession::run(FrameSource& source, const Observer& observer) {
+  smoothed_.reset();
   Stopwatch watch;
   while (const auto frame = source.next()) {
     StepReport report;
@@ -26,10 +27,9 @@ void RangeBearingSession::run(FrameSource& source, const Observer& observer) {
     for (const RangeBearing& reading : scan.readings) identities_.push_back(reading.id);
     const RangeBearingReport seen = estimator_.step(frame->stamp_s, report.motion, scan);
     report.events = seen.events;
-    if (options_.smooth)
-      record_.add(frame->stamp_s, report.motion, scan, seen, estimator_.pose());
+    if (options_.smooth) record_.add(frame->stamp_s, scan, seen, estimator_.pose());
     report.times_ms.filter = watch.lap();
-    if (!observer(*frame, report, *this)) break;
+    if (!observer(*frame, report, *this)) return;
     watch.lap();  // what the observer does is no stage of the session
   }
   if (options_.smooth) smoothed_ = record_.smoothed(estimator_, options_);

@@ -51,6 +51,9 @@ struct PredictedMeasurement {
 PredictedMeasurement predictMeasurement(const Pose2& T_world_robot, BlockKind kind,
                                         const BlockVector& block, const Measurement& like);
 
+/// R with no standard deviation below 1e-5 (m, rad): how sure a measurement counts at most.
+MeasurementCovariance noiseOf(const Measurement& measurement);
+
 /// z - h(x), angles wrapped.
 MeasurementVector innovationOf(const Measurement& measurement, const MeasurementVector& predicted);
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "colonnade/base/trajectory.hpp"
@@ -15,8 +17,8 @@ namespace colonnade {
 class DriveRecord {
  public:
   /// One frame, after the estimator's step.
-  void add(double stamp_s, const MotionIncrement& motion, const RangeBearingScan& scan,
-           const RangeBearingReport& report, const Pose2& T_world_robot);
+  void add(double stamp_s, const RangeBearingScan& scan, const RangeBearingReport& report,
+           const Pose2& T_world_robot);
 
   struct Smoothed {
     Trajectory trajectory;
@@ -25,10 +27,12 @@ class DriveRecord {
   };
   /// The drive past the landmarks the estimator knows at the end, with its last word on which
   /// reading is of which; readings whose identity is believed are of its bearer. The map is the
-  /// estimator's with places, extents and covariances as smoothed; where the whole map moved, it is
-  /// put back where the estimator has it.
-  Smoothed smoothed(const RangeBearingEstimator& estimator,
-                    const RangeBearingOptions& options) const;
+  /// estimator's with places, extents and, up to 500 landmarks, covariances as smoothed; a landmark
+  /// none of whose readings was used stays. With RangeBearing.world_with_map it is put back where
+  /// the estimator has it if it moved as a whole. Nothing when there is no reading of a landmark,
+  /// or when smoothing failed: not finite, or half of the readings left out.
+  std::optional<Smoothed> smoothed(const RangeBearingEstimator& estimator,
+                                   const RangeBearingOptions& options) const;
 
  private:
   struct Reading {

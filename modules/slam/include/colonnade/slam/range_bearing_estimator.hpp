@@ -18,11 +18,12 @@ namespace colonnade {
 struct RangeBearingReport {
   std::vector<std::optional<LandmarkId>> landmarks;  ///< one for each reading of the scan
   std::vector<bool> founded;                         ///< the reading founded its landmark
-  /// The readings as the filter takes them, R as wide as a correction counts it; nothing for one
+  /// The readings in the plane of the robot, R widened for errors that are alike; nothing for one
   /// that cannot be used.
   std::vector<std::optional<Measurement>> measurements;
-  /// Of the motion before this frame: what the frame was given and, when every landmark disagreed,
-  /// the doubt about the pose.
+  /// The motion before this frame as the filter took it: none while it waits for a landmark or when
+  /// it refused it; when every landmark disagreed, with the doubt about the pose.
+  Pose2 T_previous_robot;
   Eigen::Matrix3d motion_covariance = Eigen::Matrix3d::Zero();
   std::vector<Event> events;
 };

@@ -28,10 +28,11 @@ class RangeBearingSession {
 
   const EkfSlam& filter() const { return estimator_.filter(); }
   const RangeBearingEstimator& estimator() const { return estimator_; }
-  /// What the whole log says, once run() is over; nothing with RangeBearing.smooth off.
+  /// What the whole log says, once run() has come to its end; nothing with RangeBearing.smooth off
+  /// or where DriveRecord has nothing.
   const std::optional<DriveRecord::Smoothed>& smoothed() const { return smoothed_; }
-  /// Smoothed, once it is. Where the log's identities are believed and every landmark has one, they are the ids of the
-  /// map; otherwise those of the filter.
+  /// Smoothed, once it is. Where the log's identities are believed and every landmark has one, they
+  /// are the ids of the map; otherwise those of the filter.
   LandmarkMap map() const;
   std::size_t axisCount() const { return 0; }
   /// The decisions against the identities of the log, also where those are hidden from the filter.
