@@ -198,7 +198,7 @@ TEST(Smoother, AStretchBentToSuitWrongReadingsIsMended) {
   });
   for (auto& motion : {100, 103}) {
     auto& covariance = drive.start.motions[static_cast<std::size_t>(motion)].covariance;
-    covariance(2, 2) = std::pow(radians(8.0), 2);
+    covariance(2, 2) = std::pow(radians(15.0), 2);
   }
   std::size_t wrong = 0;
   for (auto& sighting : drive.start.sightings)
