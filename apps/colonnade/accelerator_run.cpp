@@ -52,8 +52,7 @@ class Bench {
     accelerator_->configure(parameters);
     accelerator_->submit(gray);
     FixedResult expected;
-    fixed_ms.push_back(
-        processorMilliseconds([&] { expected = stage_.process(gray, parameters); }));
+    fixed_ms.push_back(processorMilliseconds([&] { expected = stage_.process(gray, parameters); }));
     opencv_ms.push_back(processorMilliseconds([&] {
       opencv_.canny(gray);
       opencv_.hough();

@@ -103,20 +103,21 @@ std::string acceleratorTables(const Json& figures) {
 
   const Json& hardware = figures.at("figure_73");
   const Json& thesis = hardware.at("thesis");
+  text += "\n**Figure 73**: hardware, clocks of the simulated RTL and ms at 100 MHz\n\n" +
+          header({"design", "size", "pixels per clock", "angles", "passes", "Canny",
+                  "to the last line", "after the last pixel", "at most, and lines that wait",
+                  "frame to frame", "Canny ms", "Hough ms more", "all ms"});
   text +=
-      "\n**Figure 73**: hardware, clocks of the simulated RTL and ms at 100 MHz\n\n" +
-      header({"design", "size", "pixels per clock", "angles", "passes", "Canny", "to the last line",
-              "after the last pixel", "at most, and lines that wait", "frame to frame", "Canny ms", "Hough ms more", "all ms"});
-  text += row({"thesis", cell(thesis, "size"), "1", "12", "0", "-", cell(thesis, "clocks"), "-",
-               "-", "-", cell(thesis, "canny_ms"), cell(thesis, "hough_ms"), cell(thesis, "total_ms")});
+      row({"thesis", cell(thesis, "size"), "1", "12", "0", "-", cell(thesis, "clocks"), "-", "-",
+           "-", cell(thesis, "canny_ms"), cell(thesis, "hough_ms"), cell(thesis, "total_ms")});
   for (const Json& times : hardware.at("ours"))
-    text +=
-        row({"here", cell(times, "size"), cell(times, "pixels_per_clock"), cell(times, "angles"),
-             cell(times, "hysteresis_passes"), cell(times, "canny_clocks"), cell(times, "clocks"),
-             cell(times, "clocks_after_last_pixel"),
-             cell(times, "clocks_after_last_pixel_at_most") + " + " + cell(times, "lines_that_wait"),
-             cell(times, "sustained_clocks_per_frame"),
-             cell(times, "canny_ms"), cell(times, "hough_ms_more"), cell(times, "total_ms")});
+    text += row(
+        {"here", cell(times, "size"), cell(times, "pixels_per_clock"), cell(times, "angles"),
+         cell(times, "hysteresis_passes"), cell(times, "canny_clocks"), cell(times, "clocks"),
+         cell(times, "clocks_after_last_pixel"),
+         cell(times, "clocks_after_last_pixel_at_most") + " + " + cell(times, "lines_that_wait"),
+         cell(times, "sustained_clocks_per_frame"), cell(times, "canny_ms"),
+         cell(times, "hough_ms_more"), cell(times, "total_ms")});
   return text;
 }
 

@@ -146,7 +146,8 @@ HardwareTimes hardwareTimes(const AcceleratorModel& model, const cv::Mat& gray) 
   accelerator.submit(gray);
   const AcceleratorResult result = accelerator.wait();
   if (const std::string difference = differenceFrom(expected, result); !difference.empty())
-    throw Error("accelerator: the model's answer is not that of fixed: " + difference + "; " + result.detail);
+    throw Error("accelerator: the model's answer is not that of fixed: " + difference + "; " +
+                result.detail);
   std::set<int> steps;  // of the scan: angles side by side, a bin in each
   for (const FixedLine& line : expected.lines) steps.insert(line.rho);
   times.waiting_lines = expected.lines.size() - steps.size();

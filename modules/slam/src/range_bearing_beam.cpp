@@ -149,7 +149,7 @@ ReadingDecisions decideByHypotheses(const ReadingFrame& frame, const RangeBearin
   for (std::size_t h = 0; h < hypotheses.size(); ++h) hypotheses[h].endFrame(frame, events[h]);
   const double best = hypotheses.front().log_weight;
   for (auto& hypothesis : hypotheses) hypothesis.log_weight -= best;
-  return {std::move(decided), founded.front(), events.front()};
+  return {std::move(decided), founded.front(), events.front(), false};
 }
 
 void mergeAlike(const ReadingHistories& histories,

@@ -160,8 +160,7 @@ RangeBearingReport RangeBearingEstimator::step(double stamp_s, const MotionIncre
     report.T_previous_robot = motion.T_previous_robot;
     report.motion_covariance = motion.covariance;
   }
-  for (const Event& event : report.events)
-    if (event.what == "lost") report.motion_covariance += lostCovariance();
+  if (decisions.lost) report.motion_covariance += lostCovariance();
   for (std::size_t i = 0; i < places.size(); ++i) {
     report.landmarks[places[i]] = decisions.landmarks.front()[i];
     report.founded[places[i]] = decisions.founded[i];

@@ -117,7 +117,7 @@ void RangeBearingHypothesis::observe(LandmarkId landmark, const LandmarkReading&
     identity_of_landmark_.emplace(landmark, reading.identity);
 }
 
-void RangeBearingHypothesis::strike(LandmarkId landmark, const ReadingFrame& frame,
+bool RangeBearingHypothesis::strike(LandmarkId landmark, const ReadingFrame& frame,
                                     std::vector<Event>& events) {
   refused_in_a_row_.push_back(landmark);
   const bool several = std::any_of(refused_in_a_row_.begin(), refused_in_a_row_.end(),
@@ -127,12 +127,13 @@ void RangeBearingHypothesis::strike(LandmarkId landmark, const ReadingFrame& fra
     filter.predict({}, lostCovariance());
     events.push_back({frame.stamp_s, frame.index, "lost", std::nullopt,
                       "all readings in a row refused: the pose is in doubt"});
-    return;
+    return true;
   }
   const int strikes = ++strikes_[landmark];
-  if (strikes < kFewestStrikes || strikes <= filter.evidence(landmark).observations) return;
+  if (strikes < kFewestStrikes || strikes <= filter.evidence(landmark).observations) return false;
   events.push_back(event(frame, "purged", landmark, "refused more often than seen"));
   forget(landmark);
+  return false;
 }
 
 void RangeBearingHypothesis::forget(LandmarkId landmark) {

@@ -66,7 +66,8 @@ class RangeBearingHypothesis {
   /// Books a reading the gate kept from the landmark of its identity. A landmark refused more often
   /// in a row than it was ever seen stands at a wrong place: it is forgotten. When readings of
   /// several landmarks are refused and none is used in between, the pose becomes uncertain.
-  void strike(LandmarkId landmark, const ReadingFrame& frame, std::vector<Event>& events);
+  /// Whether it did.
+  bool strike(LandmarkId landmark, const ReadingFrame& frame, std::vector<Event>& events);
 
   /// A bearing to an identity the map does not know: a landmark somewhere on its ray, or, with
   /// wait_for_parallax, one that waits for a second bearing from elsewhere. What became a landmark,

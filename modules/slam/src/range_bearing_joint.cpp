@@ -100,7 +100,7 @@ ReadingDecisions decideJointly(const ReadingFrame& frame, const RangeBearingOpti
       landmarks[i] = plan.landmark[i];
       hypothesis.observe(*landmarks[i], frame.readings[i], frame);
     } else {
-      hypothesis.strike(*plan.landmark[i], frame, decisions.events);
+      decisions.lost |= hypothesis.strike(*plan.landmark[i], frame, decisions.events);
     }
   }
   int births = 0;

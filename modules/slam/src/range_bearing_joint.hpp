@@ -12,6 +12,7 @@ struct ReadingDecisions {
   std::vector<std::vector<std::optional<LandmarkId>>> landmarks;
   std::vector<bool> founded;  ///< by the likeliest hypothesis
   std::vector<Event> events;
+  bool lost = false;  ///< every landmark disagreed: the pose was put in doubt, see lostCovariance()
 };
 
 /// All readings of a frame at once: known identities and nn or jcbb for the others, one joint

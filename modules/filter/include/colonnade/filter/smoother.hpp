@@ -22,7 +22,8 @@ struct Drive {
     std::size_t pose = 0;
     std::size_t point = 0;
     Measurement measurement;
-    bool used = true;  ///< false: too far off to be of this point
+    bool used =
+        true;  ///< set by smooth(); false: too far off to be of this point, or no measurement
   };
   std::vector<Pose2> T_world_robot;  ///< one for each frame
   std::vector<Motion> motions;       ///< as many as poses; the first has no say
@@ -31,11 +32,11 @@ struct Drive {
 };
 
 struct Smoothing {
-  bool converged = false;
+  bool converged = false;  ///< and no sighting came in or went out any more
   int steps = 0;
   std::size_t unused = 0;  ///< sightings
-  /// Sum of squared Mahalanobis distances, of sightings their Huber loss and for an unused one the
-  /// bound of the gate.
+  /// Sum of squared Mahalanobis distances; of sightings their Huber loss, of an unused one that of
+  /// a sighting just at the gate.
   double cost = 0.0;
   /// Of each point, square metres, given the first pose; empty for more than 500 points.
   std::vector<Eigen::Matrix2d> point_covariances;
@@ -47,7 +48,9 @@ struct Smoothing {
 /// every derivative is taken at the result and later sightings correct earlier poses. The first
 /// pose stays. Sightings off by more than what one in a hundred is off by pull with Huber's loss;
 /// those outside the gate of `gate_probability` at the end are marked unused and the rest is solved
-/// again. Throws nothing; a drive without a sighting is left as it is.
+/// again. Stretches bent to suit wrong sightings, between two motions outside the gate, are tried
+/// without them; of many or long ones only the first (see kMostTrials). Throws nothing; a drive
+/// without a sighting is left as it is.
 Smoothing smooth(Drive& drive, double gate_probability);
 
 }  // namespace colonnade
