@@ -34,8 +34,16 @@ double distance(const Pose2& a, const Pose2& b) {
   return (a.translation() - b.translation()).norm();
 }
 
+/// Edges that move while nobody looks, as furniture does: the world a robot comes back to.
+struct Move {
+  double at_s = 1e9;
+  Eigen::Vector2d p_world = Eigen::Vector2d::Zero();
+  double radius_m = 0.0;
+  Eigen::Vector2d by_m = Eigen::Vector2d::Zero();
+};
+
 Outcome drive(const World& world, std::uint64_t seed, const testing::PlanSensor& sensor,
-              const MapperOptions& options, bool verbose) {
+              const MapperOptions& options, const Move& move, bool verbose) {
   testing::PlanDrive plan(world, seed, sensor);
   Mapper mapper(options);
   Outcome o;
@@ -43,7 +51,12 @@ Outcome drive(const World& world, std::uint64_t seed, const testing::PlanSensor&
   double nees = 0.0, online2 = 0.0;
   int nees_count = 0;
   bool closed = false;
+  bool moved = false;
   while (const auto seen = plan.next()) {
+    if (!moved && seen->stamp_s >= move.at_s) {
+      plan.moveEdgesNear(move.p_world, move.radius_m, move.by_m);
+      moved = true;
+    }
     if (!truth.empty()) o.length_m += distance(truth.back(), plan.truth());
     truth.push_back(plan.truth());
     const double before =
@@ -105,6 +118,7 @@ int main(int argc, char** argv) try {
   testing::PlanSensor sensor;
   Config config;
   bool verbose = false;
+  Move move;
   std::vector<std::string> amendments;
   for (int i = 3; i < argc; ++i) {
     const std::string word = argv[i];
@@ -114,7 +128,11 @@ int main(int argc, char** argv) try {
       sensor.visual_share = 0.03;
     else if (word == "-v")
       verbose = true;
-    else if (word.starts_with("world:"))
+    else if (word.starts_with("move:")) {
+      if (std::sscanf(word.c_str(), "move:%lf,%lf,%lf,%lf,%lf,%lf", &move.at_s, &move.p_world.x(),
+                      &move.p_world.y(), &move.radius_m, &move.by_m.x(), &move.by_m.y()) != 6)
+        throw Error("move:AT_S,X,Y,RADIUS,BY_X,BY_Y");
+    } else if (word.starts_with("world:"))
       amendments.push_back(word.substr(6));
     else
       config.set(word);
@@ -129,7 +147,8 @@ int main(int argc, char** argv) try {
       "closings wrong\n");
   int closed = 0, wrong = 0, good_drift = 0, good_heading = 0, good_end = 0;
   for (int seed = 1; seed <= seeds; ++seed) {
-    const Outcome o = drive(world, static_cast<std::uint64_t>(seed), sensor, options, verbose);
+    const Outcome o =
+        drive(world, static_cast<std::uint64_t>(seed), sensor, options, move, verbose);
     std::printf("%4d %7.1f %7.3f %5.2f %7.3f %5.2f %9.3f %11.3f %11.2f %7.2f %6d %6d\n", seed,
                 o.length_m, o.drift_m, 100.0 * o.drift_m / o.length_m, o.end_m,
                 100.0 * o.end_m / o.length_m, o.final_rms_m, o.online_rms_m, degrees(o.heading_max),

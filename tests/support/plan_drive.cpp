@@ -84,6 +84,12 @@ void PlanDrive::removeEdgesNear(const Eigen::Vector2d& p_world, double radius_m)
     if ((edge.p_world - p_world).norm() < radius_m) edge.p_world.setConstant(1e6);
 }
 
+void PlanDrive::moveEdgesNear(const Eigen::Vector2d& p_world, double radius_m,
+                              const Eigen::Vector2d& by_m) {
+  for (VerticalEdge& edge : building_.edges)
+    if ((edge.p_world - p_world).norm() < radius_m) edge.p_world += by_m;
+}
+
 /// Two standard normal errors of one thing that resemble those of the frame before.
 Eigen::Vector2d PlanDrive::noise(int key, double stamp_s) {
   const bool is_new = !errors_.contains(key);

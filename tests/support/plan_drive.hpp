@@ -44,8 +44,10 @@ class PlanDrive {
   /// T_world_robot of the observation last returned.
   const Pose2& truth() const { return truth_; }
   const Building& building() const { return building_; }
-  /// What the building holds that is out of sight from now on: edges near a place are gone.
+  /// From now on edges near a place are gone.
   void removeEdgesNear(const Eigen::Vector2d& p_world, double radius_m);
+  /// From now on edges near a place stand elsewhere, looking the same.
+  void moveEdgesNear(const Eigen::Vector2d& p_world, double radius_m, const Eigen::Vector2d& by_m);
 
  private:
   struct Error {

@@ -56,7 +56,23 @@ bool LandmarkBook::isAsleep(LandmarkId landmark) const {
 }
 
 void LandmarkBook::wakeAll() {
-  for (auto& [id, page] : pages_) page.asleep = false;
+  for (auto& [id, page] : pages_) page.asleep = page.estranged = false;
+}
+
+void LandmarkBook::setEstranged(const std::set<LandmarkId>& landmarks) {
+  for (const LandmarkId id : landmarks) {
+    const auto page = pages_.find(id);
+    if (page != pages_.end()) page->second.asleep = page->second.estranged = true;
+  }
+}
+
+bool LandmarkBook::isEstranged(LandmarkId landmark) const {
+  const auto page = pages_.find(landmark);
+  return page != pages_.end() && page->second.estranged;
+}
+
+void LandmarkBook::endEstrangement() {
+  for (auto& [id, page] : pages_) page.estranged = false;
 }
 
 void LandmarkBook::observeTogether(const std::vector<LandmarkId>& landmarks) {

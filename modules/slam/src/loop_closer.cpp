@@ -44,10 +44,10 @@ double relativeSigma(LandmarkId landmark, const EkfSlam& filter) {
 }
 
 void LoopCloser::updateSleep(const EkfSlam& filter, LandmarkBook& book) {
-  if (!options_.enabled || book.way() - sleep_checked_m_ < options_.try_every_m) return;
+  if (book.way() - sleep_checked_m_ < options_.try_every_m) return;
   sleep_checked_m_ = book.way();
   for (const Block& block : filter.state().blocks) {
-    if (!block.isLandmark()) continue;
+    if (!block.isLandmark() || book.isEstranged(block.id)) continue;
     const bool long_ago = book.way() - book.seenOnWay(block.id).last_m > options_.sleep_after_m;
     if (!long_ago && !book.isAsleep(block.id)) continue;
     const double sigma = relativeSigma(block.id, filter);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "colonnade/base/text.hpp"
 #include "colonnade/slam/floor_directions.hpp"
@@ -52,11 +53,6 @@ LoopOptions confirmedOnly(LoopOptions loops, const InitializationOptions& initia
 /// Of the start in a fixed map, up to which the association finds the landmarks by itself.
 constexpr double kKnownStart_m = 0.2;
 
-/// A closing is taken back when less than this share of so many old landmarks that should be seen
-/// after it are.
-constexpr double kContradictingShare = 0.25;
-constexpr int kContradictingCount = 10;
-
 }  // namespace
 
 Mapper::Mapper(const MapperOptions& options)
@@ -87,10 +83,17 @@ Mapper::Mapper(const MapperOptions& options, Resumption from) : Mapper(options) 
 }
 
 MapperReport Mapper::step(const Observation& seen) {
+  const bool verifies = !seen.sight.rays.empty() && options_.loops.verify_m > 0.0;
+  if (verifies && !snapshot_) awaitReturn();
+  const int closings = estimate_.closings;
   MapperReport report = advance(seen);
+  if (before_return_) before_return_->since.push_back(seen);
   if (snapshot_) {
     snapshot_->since.push_back(seen);
     verify(seen, report.events);
+  } else if (before_return_ && estimate_.closings > closings) {
+    snapshot_ = std::exchange(before_return_, std::nullopt);
+    snapshot_->way_m = estimate_.landmarks.way();
   } else if (const auto loop = estimate_.loops.step(estimate_.filter, estimate_.landmarks)) {
     close(*loop, seen, report.events);
   }
@@ -155,82 +158,6 @@ void Mapper::keepUp(const Observation& seen, const std::vector<LandmarkId>& matc
     e.upkeep.forget(twins.twin);
     events.push_back({seen.stamp_s, seen.index, "fused", twins.kept,
                       "with " + std::to_string(number(twins.twin))});
-  }
-}
-
-void Mapper::close(const LoopCandidate& loop, const Observation& seen, std::vector<Event>& events) {
-  const LoopOptions& options = options_.loops;
-  Snapshot snapshot{estimate_, {}, loop.best.shift, estimate_.landmarks.way()};
-  dropBearings(snapshot.estimate);
-  std::set<LandmarkId> sleeping;
-  for (const Block& block : estimate_.filter.state().blocks)
-    if (estimate_.landmarks.isAsleep(block.id)) sleeping.insert(block.id);
-  const Pose2 before = estimate_.filter.pose();
-  if (!fuse(loop.best.twins, {options.twin_place_m, options.twin_direction}, estimate_.filter,
-            estimate_.landmarks))
-    return;
-  ++estimate_.closings;
-  const Eigen::Vector2d moved = estimate_.filter.pose().translation() - before.translation();
-  events.push_back({seen.stamp_s, seen.index, "loop closing", std::nullopt,
-                    std::to_string(loop.best.twins.size()) + " landmarks at " +
-                        std::to_string(loop.best.places) + " places; " + loop.cues +
-                        "; the robot moved by " + formatFixed(moved.norm(), 3) + " m"});
-  for (const Twins& twins : loop.best.twins) {
-    estimate_.hallways.merge(twins.kept, twins.twin);
-    estimate_.upkeep.forget(twins.twin);
-    events.push_back({seen.stamp_s, seen.index, "fused", twins.kept,
-                      "with " + std::to_string(number(twins.twin))});
-  }
-  if (!estimate_.grows || estimate_.filter.isFixed(loop.best.twins.front().kept)) settleInMap();
-  if (seen.sight.rays.empty() || options.verify_m <= 0.0) return;
-  estimate_.upkeep.watch(std::move(sleeping));
-  snapshot_ = std::move(snapshot);
-}
-
-void Mapper::dropBearings(Estimate& estimate) {
-  std::vector<LandmarkId> held;
-  for (const Block& block : estimate.filter.state().blocks)
-    if (block.evidence.hypothesis ||
-        (block.block_kind == BlockKind::kPoseClone && !estimate.trail.holds(block.id)))
-      held.push_back(block.id);
-  for (const LandmarkId id : held) estimate.filter.remove(id);
-}
-
-/// The robot has found its place in a fixed map: what it founded on the way there goes.
-void Mapper::settleInMap() {
-  auto& e = estimate_;
-  e.grows = false;
-  e.landmarks.wakeAll();
-  e.initializer = Initializer(options_.initialization);
-  std::vector<LandmarkId> own;
-  for (const Block& block : e.filter.state().blocks)
-    if (block.block_kind != BlockKind::kAxis && !e.filter.isFixed(block.id) &&
-        !e.trail.holds(block.id))
-      own.push_back(block.id);
-  for (const LandmarkId id : own) {
-    e.filter.remove(id);
-    e.landmarks.forget(id);
-    e.upkeep.forget(id);
-  }
-}
-
-/// Looks back on the last closing: the old landmarks it brought into view must be seen.
-void Mapper::verify(const Observation& seen, std::vector<Event>& events) {
-  const auto& tally = estimate_.upkeep.tally();
-  if (tally.expected >= kContradictingCount && tally.seen < kContradictingShare * tally.expected) {
-    Snapshot before = std::move(*snapshot_);
-    snapshot_.reset();
-    events.push_back({seen.stamp_s, seen.index, "loop closing undone", std::nullopt,
-                      std::to_string(tally.seen) + " of " + std::to_string(tally.expected) +
-                          " expected old landmarks seen"});
-    estimate_ = std::move(before.estimate);
-    estimate_.loops.forbid(before.shift);
-    for (const Observation& again : before.since) {
-      const MapperReport replayed = advance(again);
-      events.insert(events.end(), replayed.events.begin(), replayed.events.end());
-    }
-  } else if (estimate_.landmarks.way() - snapshot_->way_m > options_.loops.verify_m) {
-    snapshot_.reset();
   }
 }
 

@@ -19,6 +19,9 @@ constexpr double kClearShare = 0.4;
 constexpr int kClearCount = 3;
 /// Log-odds of one miss at most: ten looks may fail for one common reason.
 constexpr double kWorstMiss = 1.0;
+/// From elsewhere something else is taken for a landmark so many times as often as the landmark
+/// itself is seen from here.
+constexpr double kMistaken = 0.5;
 
 }  // namespace
 
@@ -80,6 +83,18 @@ std::vector<LandmarkId> Upkeep::findGone(const Observation& seen,
   return gone;
 }
 
+double Upkeep::Record::share() const {
+  return std::clamp((hits + 2.0) / (looks + 3.0), 0.15, 0.95);
+}
+
+void Upkeep::weigh(const Record& watched) {
+  const double here = watched.share(), elsewhere = kMistaken * here;
+  const double ratio = watched.hit ? elsewhere / here : (1.0 - elsewhere) / (1.0 - here);
+  ++tally_.expected;
+  tally_.seen += watched.hit ? 1 : 0;
+  tally_.doubt = std::max(0.0, tally_.doubt + std::log(ratio));
+}
+
 void Upkeep::endLook(std::vector<LandmarkId>& gone) {
   int expected = 0, hits = 0;
   const auto counts = [&](const Record& r) { return 2 * r.frames_expected >= frames_ || r.hit; };
@@ -87,17 +102,14 @@ void Upkeep::endLook(std::vector<LandmarkId>& gone) {
     if (!counts(record)) continue;
     ++expected;
     hits += record.hit ? 1 : 0;
-    if (!watched_.contains(id)) continue;
-    ++tally_.expected;
-    tally_.seen += record.hit ? 1 : 0;
+    if (watched_.contains(id)) weigh(record);
   }
   const bool clear = expected >= kClearCount && hits >= kClearShare * expected;
   for (auto& [id, record] : records_) {
     if (clear && counts(record)) {
       ++record.looks;
       record.hits += record.hit ? 1 : 0;
-      // Share of looks that show it, as far as known: a Beta(2, 1) prior.
-      const double share = std::clamp((record.hits + 2.0) / (record.looks + 3.0), 0.15, 0.95);
+      const double share = record.share();
       const double by_hit = std::log(share / options_.false_sighting);
       const double by_miss = std::log((1.0 - share) / (1.0 - options_.false_sighting));
       record.evidence += record.hit ? std::max(0.0, by_hit) : std::clamp(by_miss, -kWorstMiss, 0.0);

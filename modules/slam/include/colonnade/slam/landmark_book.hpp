@@ -42,6 +42,11 @@ class LandmarkBook {
   void setAsleep(LandmarkId landmark, bool asleep) { pages_[landmark].asleep = asleep; }
   bool isAsleep(LandmarkId landmark) const;
   void wakeAll();
+  /// A landmark whose place relative to the robot turned out wrong sleeps, however well the filter
+  /// believes to know it, until a constellation says where the robot is.
+  void setEstranged(const std::set<LandmarkId>& landmarks);
+  bool isEstranged(LandmarkId landmark) const;
+  void endEstrangement();
 
   /// Whether two landmarks were matched in one frame: then they are two.
   bool seenTogether(LandmarkId a, LandmarkId b) const;
@@ -70,6 +75,7 @@ class LandmarkBook {
     double last_m = 0.0;
     std::optional<double> returned_m;
     bool asleep = false;
+    bool estranged = false;
   };
   friend class MapFile;
   std::optional<LandmarkId> bestPartner(LandmarkId landmark) const;

@@ -102,24 +102,28 @@ class Mapper {
   /// As it stood before a loop was closed, with what was seen since.
   struct Snapshot {
     Estimate estimate;
-    std::vector<Observation> since;
-    Eigen::Vector2d shift = Eigen::Vector2d::Zero();
-    double way_m = 0.0;
+    double way_m = 0.0;                    ///< of the closing; before a return: when it was taken
+    std::set<LandmarkId> old;              ///< landmarks the closing brings back
+    std::optional<Eigen::Vector2d> shift;  ///< of the constellation; the association has none
+    std::vector<Observation> since = {};
   };
 
   MapperReport advance(const Observation& seen);
   void keepUp(const Observation& seen, const std::vector<LandmarkId>& matched,
               std::vector<Event>& events);
   void close(const LoopCandidate& loop, const Observation& seen, std::vector<Event>& events);
-  void verify(const Observation& seen, std::vector<Event>& events);
   void settleInMap();
+  void awaitReturn();
+  void verify(const Observation& seen, std::vector<Event>& events);
+  void undo(const Observation& seen, std::vector<Event>& events);
   /// Takes what unfinished bearings hold in the state out of it.
   static void dropBearings(Estimate& estimate);
 
   MapperOptions options_;
   Associator association_;
   Estimate estimate_;
-  std::optional<Snapshot> snapshot_;
+  std::optional<Snapshot> snapshot_;       ///< of the last closing, until it is verified
+  std::optional<Snapshot> before_return_;  ///< near old landmarks, from before any was met again
 };
 
 }  // namespace colonnade

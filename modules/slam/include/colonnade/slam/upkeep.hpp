@@ -64,15 +64,20 @@ class Upkeep {
   std::vector<Twins> findTwins(const EkfSlam& filter, const LandmarkBook& book) const;
   bool lookEnded() const { return look_ended_; }
   void forget(LandmarkId landmark) { records_.erase(landmark); }
-  /// Counts these from now on.
+  /// Looks at these are evidence for the robot's place among them from now on.
   void watch(std::set<LandmarkId> landmarks) {
     watched_ = std::move(landmarks);
     tally_ = {};
   }
-  /// Of the watched landmarks: looks that should have shown one, and those that did.
+  const std::set<LandmarkId>& watched() const { return watched_; }
+  /// Of the watched landmarks: looks that should have shown one, and those that did. `doubt` is
+  /// the cumulative sum of the log-likelihood ratio of their hits and misses, that the robot is
+  /// elsewhere over that it is here, never below zero: high after a run of misses, however much
+  /// was seen before (E. S. Page, Continuous inspection schemes, Biometrika 41, 1954).
   struct Tally {
     int expected = 0;
     int seen = 0;
+    double doubt = 0.0;
   };
   const Tally& tally() const { return tally_; }
 
@@ -85,7 +90,11 @@ class Upkeep {
     double farthest_m = 0.0;
     int frames_expected = 0;  ///< in the present look
     bool hit = false;
+
+    /// Of looks that show it, as far as known: a Beta(2, 1) prior.
+    double share() const;
   };
+  void weigh(const Record& watched);
   void endLook(std::vector<LandmarkId>& gone);
 
   UpkeepOptions options_;
