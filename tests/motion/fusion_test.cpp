@@ -18,24 +18,28 @@ using testing::Scene;
 /// A camera on wheels that moves by `true_step` in each frame, while the wheels read `read_step`.
 class BothOdometries : public ::testing::Test {
  protected:
+  enum class View { kScene, kDark, kMovingLight };
   MotionIncrement drive(const Pose2& true_step, const Pose2& read_step,
-                        const Eigen::Vector3d& wheel_sigmas, bool lit = true) {
+                        const Eigen::Vector3d& wheel_sigmas, View view = View::kScene) {
     MotionEstimator estimator(options_, std::make_shared<CameraTracker>(options_));
-    const Scene scene = Scene::corridor(true, true);
+    Scene scene = Scene::corridor(true, true);
+    // Only the floor and the wall ahead: nothing but brightness tells the place across.
+    if (view == View::kMovingLight) scene.walls = {scene.walls.front(), scene.walls.back()};
     MotionIncrement motion;
     Pose2 T_world_robot;
     Pose2 T_odom_robot;
     for (std::size_t i = 0; i < 3; ++i) {
       const auto T_world_camera =
           cameraInWorld(T_world_robot.x, T_world_robot.y, 1.1, T_world_robot.phi, radians(12.0));
-      Frame frame = scene.render(i, 0.1 * static_cast<double>(i), T_world_camera);
+      Frame frame = scene.render(i, period_s_ * static_cast<double>(i), T_world_camera);
       frame.T_robot_camera = mountingOf(T_world_camera);
       frame.odometry =
           OdometryReading{T_odom_robot, Eigen::Matrix3d(wheel_sigmas.cwiseAbs2().asDiagonal())};
-      if (!lit) {
+      if (view == View::kDark) {
         frame.gray.setTo(0);
         frame.depth_m.setTo(0.0f);
       }
+      if (view == View::kMovingLight) scene.pattern_shift.y() -= 0.1;
       motion = estimator.increment(frame);
       T_world_robot = T_world_robot * true_step;
       T_odom_robot = T_odom_robot * read_step;
@@ -43,6 +47,7 @@ class BothOdometries : public ::testing::Test {
     return motion;
   }
   MotionOptions options_;
+  double period_s_ = 0.1;
   const Pose2 step_{0.06, 0.0, radians(1.0)};
   const Eigen::Vector3d coarse_{0.02, 0.02, radians(2.0)};
 };
@@ -68,16 +73,37 @@ TEST_F(BothOdometries, CoarseWheelsAreCorrectedByTheCamera) {
 
 TEST_F(BothOdometries, ABlindCameraLeavesTheWheelsAsTheyAre) {
   const Pose2 read{0.07, 0.01, radians(2.0)};
-  const auto motion = drive(step_, read, coarse_, false);
+  const auto motion = drive(step_, read, coarse_, View::kDark);
   EXPECT_EQ(motion.source, MotionSource::kOdometry);
   EXPECT_LT((motion.T_previous_robot.vector() - read.vector()).norm(), 1e-12);
 }
 
-TEST_F(BothOdometries, LongStepsAreLeftToTheWheels) {
-  const Pose2 read{0.5, 0.01, 0.0};
-  const auto motion = drive({0.48, 0.0, 0.0}, read, coarse_);
+TEST_F(BothOdometries, LongStepsAreMeasuredFromWhereTheWheelsSay) {
+  period_s_ = 0.5;
+  for (const Pose2 step : {Pose2{0.48, 0.0, 0.0}, Pose2{0.1, 0.02, radians(30.0)}}) {
+    const Pose2 read{1.03 * step.x, step.y + 0.01, 1.03 * step.phi + radians(0.5)};
+    const auto motion = drive(step, read, coarse_);
+    EXPECT_EQ(motion.source, MotionSource::kOdometryVisual);
+    EXPECT_NEAR(motion.T_previous_robot.x, step.x, 0.008);
+    EXPECT_NEAR(motion.T_previous_robot.y, step.y, 0.008);
+    EXPECT_NEAR(motion.T_previous_robot.phi, step.phi, radians(0.4));
+  }
+}
+
+TEST_F(BothOdometries, StepsBeyondReachAreLeftToTheWheels) {
+  const Pose2 read{1.25, 0.01, 0.0};
+  const auto motion = drive({1.2, 0.0, 0.0}, read, coarse_);
   EXPECT_EQ(motion.source, MotionSource::kOdometry);
   EXPECT_LT((motion.T_previous_robot.vector() - read.vector()).norm(), 1e-12);
+}
+
+TEST_F(BothOdometries, WhereBrightnessContradictsTheWheelsSurfacesCount) {
+  const Pose2 step{0.06, 0.0, radians(6.0)};
+  const Pose2 read{0.06, 0.0, radians(7.0)};
+  const auto motion = drive(step, read, {0.01, 0.01, radians(1.0)}, View::kMovingLight);
+  EXPECT_EQ(motion.source, MotionSource::kOdometryVisual);
+  EXPECT_NEAR(motion.T_previous_robot.phi, step.phi, radians(0.4));
+  EXPECT_LT(std::sqrt(motion.covariance(2, 2)), radians(0.8));
 }
 
 TEST_F(BothOdometries, AConflictKeepsTheWheelsWithMoreDoubt) {

@@ -24,6 +24,7 @@ struct Wall {
 struct Scene {
   std::vector<Wall> walls;
   bool textured = true;
+  Eigen::Vector3d pattern_shift = Eigen::Vector3d::Zero();  ///< as of a light that moves
   double depth_noise = 0.0;  ///< sigma at 1 m, growing with the square of the depth
 
   static Scene corridor(bool textured, bool closed) {
@@ -67,7 +68,9 @@ struct Scene {
         frame.depth_m.at<float>(v, u) =
             nearest < 7.0 ? static_cast<float>(nearest + noise * nearest * nearest) : 0.0f;
         frame.gray.at<std::uint8_t>(v, u) =
-            seen ? static_cast<std::uint8_t>(std::lround(brightness(origin + nearest * ray))) : 128;
+            seen ? static_cast<std::uint8_t>(
+                       std::lround(brightness(origin + nearest * ray - pattern_shift)))
+                 : 128;
       }
     }
     return frame;

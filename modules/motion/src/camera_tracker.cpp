@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "camera_by_wheels.hpp"
 #include "opencv_odometry.hpp"
 #include "rgbd_alignment.hpp"
 #include "rgbd_pyramid.hpp"
@@ -19,6 +20,8 @@ namespace {
 constexpr int kLevels = 4;
 constexpr int kMinPoints = 50;  ///< of one kind, to rely on it
 constexpr double kLongestCoast_s = 1.0;
+constexpr double kDoubtInWheels = 6.0;
+constexpr double kConflict = 22.46;  ///< chi squared, 6 degrees of freedom, 0.1 %
 
 Eigen::Isometry3d scaledMotion(const Eigen::Isometry3d& T, double factor) {
   Eigen::Isometry3d out = Eigen::Isometry3d::Identity();
@@ -53,6 +56,10 @@ struct CameraTracker::Impl {
   Matrix6 velocity_covariance = Matrix6::Zero();               ///< of that motion
   double velocity_dt_s = 0.0;
   double coasted_s = 0.0;
+  /// Of the former frame.
+  std::optional<OdometryReading> odometry_previous;
+  Eigen::Isometry3d T_robot_camera_previous = Eigen::Isometry3d::Identity();
+  std::optional<CameraByWheels> by_wheels;  ///< since the former frame
   CameraMotion motion;
 
   bool isPlausible(const Eigen::Isometry3d& T_previous_camera, double dt_s) const {
@@ -64,9 +71,8 @@ struct CameraTracker::Impl {
 
   /// Far from what the former motion lets expect: perhaps a wrong minimum.
   static bool isSurprising(const Eigen::Isometry3d& T_previous_camera, const MotionPrior& prior) {
-    constexpr double kGate = 22.46;  // chi squared, 6 degrees of freedom, 0.1 %
     const Vector6 e = logSe3(prior.T_reference_current.inverse() * T_previous_camera);
-    return e.dot(prior.information * e) > kGate;
+    return e.dot(prior.information * e) > kConflict;
   }
 
   bool seesTheSame(const Alignment& alignment) const {
@@ -81,6 +87,22 @@ struct CameraTracker::Impl {
            (seesTheSame(alignment) ||
             (alignment.photometric_count < kMinPoints && alignment.surface_count >= kMinPoints &&
              alignment.surface_share >= options.min_share));
+  }
+
+  std::optional<CameraByWheels> byWheels(const Frame& frame) const {
+    if (options.source != "auto" || !odometry_previous || !frame.odometry) return std::nullopt;
+    return cameraByWheels(*odometry_previous, *frame.odometry, T_robot_camera_previous,
+                          frame.T_robot_camera, options);
+  }
+
+  /// Before a bare wall brightness slides, and is sure of it.
+  bool contradictsWheels(const Alignment& alignment) const {
+    if (!by_wheels || !alignment.converged) return false;
+    const Eigen::Isometry3d T_previous_camera =
+        T_key_previous.inverse() * alignment.T_reference_current;
+    const Vector6 e = logSe3(by_wheels->T_previous_camera.inverse() * T_previous_camera);
+    const Matrix6 S = by_wheels->covariance + alignment.covariance + modelError(T_previous_camera);
+    return e.dot(S.llt().solve(e)) > kConflict;
   }
 
   Eigen::Isometry3d predicted(double dt_s) const {
@@ -120,9 +142,14 @@ struct CameraTracker::Impl {
            share < options.keyframe_share;
   }
 
-  /// The former velocity, less sure in each direction by a random change of it. What nothing
-  /// measures errs the same way frame after frame, so there the sigmas add, not the variances.
+  /// The motion by the wheels, at `kDoubtInWheels` times its sigmas, so that their word hardly
+  /// counts again when the result is fused with them. Without wheels the former velocity, less sure
+  /// in each direction by a random change of it; what nothing measures errs the same way frame
+  /// after frame, so there the sigmas add, not the variances.
   MotionPrior priorOfMotion(double dt_s) const {
+    if (by_wheels)
+      return {by_wheels->T_previous_camera,
+              (kDoubtInWheels * kDoubtInWheels * by_wheels->covariance).inverse()};
     const double time_s = std::max(dt_s, 0.01);
     Vector6 change;
     change << Eigen::Vector3d::Constant(options.coasting_speed_sigma_m_s * time_s),
@@ -156,7 +183,7 @@ struct CameraTracker::Impl {
                             prior_of_motion.information};
     if (options.engine == "direct") {
       const Alignment both = align(*key, current, prior, {T_key_previous}, alignment_options);
-      if (seesTheSame(both) || !options.use_surfaces) return both;
+      if ((seesTheSame(both) && !contradictsWheels(both)) || !options.use_surfaces) return both;
       // Bare walls, a dark or overexposed image: surfaces alone.
       AlignmentOptions surfaces_only = alignment_options;
       surfaces_only.use_photometric = false;
@@ -218,6 +245,7 @@ const CameraMotion& CameraTracker::track(const Frame& frame) {
   self.motion = CameraMotion{};
   RgbdPyramid current = makePyramid(frame, kLevels);
   if (!is_first) {
+    self.by_wheels = self.byWheels(frame);
     if (self.alignTo(current, dt_s)) {
       self.coasted_s = 0.0;
     } else {
@@ -230,6 +258,8 @@ const CameraMotion& CameraTracker::track(const Frame& frame) {
   }
   self.last_index = frame.index;
   self.last_stamp_s = frame.stamp_s;
+  self.odometry_previous = frame.odometry;
+  self.T_robot_camera_previous = frame.T_robot_camera;
   self.previous = std::move(current);
   return self.motion;
 }

@@ -43,8 +43,8 @@ struct MotionOptions {
   double model_error = 0.03;  ///< sigma per motion: shutter, synchronisation, calibration
   double weak_direction_ratio = 4.0;
   /// Longer steps from frame to frame are left to the wheels, where there are any.
-  double visual_reach_m = 0.35;
-  double visual_reach_angle = radians(15.0);
+  double visual_reach_m = 1.0;
+  double visual_reach_angle = radians(45.0);
   double max_speed_m_s = 2.0;
   double max_turn_rate = radians(150.0);
 
