@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Colonnade authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <map>
 #include <opencv2/imgcodecs.hpp>
 #include <set>
 
@@ -139,6 +140,36 @@ TEST_F(Detect, LearnsTheShadeOfPillars) {
   EXPECT_EQ(2, edges("again"));
   EXPECT_EQ(1,
             colonnade("detect pillars.png -o no --learn-shade 630,50,40,200" + camera_).exit_code);
+}
+
+TEST_F(Detect, FollowsDoorFramesAndTheCornerOfARealCorridor) {
+  COLONNADE_REQUIRE_RECORDING(recording, "corridor_xtion");
+  ASSERT_EQ(0, colonnade("import tum " + recording.string() + " -o c.rawlog").exit_code);
+  ASSERT_EQ(0, colonnade("detect c.rawlog -o seen --track --picture-every 0").exit_code);
+  std::map<std::string, int> frames_of_track;
+  std::map<std::pair<std::string, std::string>, std::string> track_of_detection;
+  for (const auto& row : table(folder_ / "seen/tracks.csv")) {
+    ++frames_of_track[row.at(3)];
+    track_of_detection[{row.at(1), row.at(2)}] = row.at(3);
+  }
+  // In how many frames the edge is seen that stands at this column of half the picture's height.
+  const auto framesOfEdge = [&](const std::string& frame, double u_px) {
+    int most = 0;
+    for (const auto& row : table(folder_ / "seen/detections.csv")) {
+      const auto track = track_of_detection.find({row.at(1), row.at(2)});
+      if (row[1] != frame || track == track_of_detection.end()) continue;
+      const double u0 = std::stod(row[5]), v0 = std::stod(row[6]);
+      const double u1 = std::stod(row[7]), v1 = std::stod(row[8]);
+      if (std::abs(u0 + (u1 - u0) * (240.0 - v0) / (v1 - v0) - u_px) < 6.0)
+        most = std::max(most, frames_of_track[track->second]);
+    }
+    return most;
+  };
+  EXPECT_GE(framesOfEdge("60", 101.0), 20);  // the door on the left: near side of its frame
+  EXPECT_GE(framesOfEdge("60", 149.0), 20);  // far side
+  EXPECT_GE(framesOfEdge("20", 496.0), 20);  // the recess on the right
+  EXPECT_GE(framesOfEdge("20", 526.0), 20);  // the frame in it
+  EXPECT_GE(framesOfEdge("90", 202.0), 20);  // where the blue wall ends
 }
 
 }  // namespace
