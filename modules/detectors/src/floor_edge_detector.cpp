@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <vector>
 
 #include "colonnade/detectors/depth_noise.hpp"
 #include "colonnade/detectors/levelled_camera.hpp"
@@ -136,9 +138,41 @@ void extend(Detection& kept, const Detection& other) {
   kept.p_robot_b = origin + high * along;
 }
 
+/// Whether depth between two lines along each other shows the floor, so that the nearer one is a
+/// joint or paint and the farther one the foot of the wall, or an upright surface, as of a skirting
+/// board, whose foot is the nearer one. What is compared is how range grows from one to the other,
+/// which no tilt error changes. Nothing where they are too close in the image or depth is missing.
+std::optional<bool> isFloorBetween(const DepthView& depth, const LevelledCamera& camera,
+                                   const Detection& near, const Detection& far) {
+  constexpr int kPlaces = 20, kEnough = 6;
+  constexpr double kNearestApart_px = 4.0;
+  const Eigen::Vector2d& p_camera = far.measurement.p_robot_camera;
+  const Eigen::Vector2d normal(std::cos(far.measurement.z[0]), std::sin(far.measurement.z[0]));
+  std::vector<double> growth;  // as a share of what the floor's would be
+  for (int i = 0; i <= kPlaces; ++i) {
+    const Eigen::Vector2d to_near =
+        near.p_robot_a + (near.p_robot_b - near.p_robot_a) * i / kPlaces - p_camera;
+    const Eigen::Vector2d to_far = to_near * (far.measurement.z[1] / normal.dot(to_near));
+    const auto pixelAt = [&](double share) {
+      const Eigen::Vector2d p = p_camera + to_near + share * (to_far - to_near);
+      return camera.project({p.x(), p.y(), 0.0});
+    };
+    const auto a = pixelAt(0.0), b = pixelAt(1.0), early = pixelAt(0.25), late = pixelAt(0.75);
+    if (!a || !b || !early || !late || (*b - *a).norm() < kNearestApart_px) continue;
+    const auto first = depth.at(*early), second = depth.at(*late);
+    if (!first || !second) continue;
+    growth.push_back((second->range_m - first->range_m) / (0.5 * (to_far - to_near).norm()));
+  }
+  if (static_cast<int>(growth.size()) < kEnough) return std::nullopt;
+  std::nth_element(growth.begin(), growth.begin() + growth.size() / 2, growth.end());
+  return growth[growth.size() / 2] > 0.5;
+}
+
 /// One detection for each line: pieces of one line join the longest, and of parallel edges close
-/// together (skirting boards) the nearest to the camera stays, where wall and floor touch.
-Detections contactEdges(Detections found, double camera_height_m, const FloorEdgeOptions& options) {
+/// together (skirting boards) the nearest to the camera stays, where wall and floor touch, but for
+/// joints of the floor along the wall.
+Detections contactEdges(Detections found, const DepthView& depth, const LevelledCamera& camera,
+                        const FloorEdgeOptions& options) {
   std::sort(found.begin(), found.end(), [](const Detection& a, const Detection& b) {
     return length(a) > length(b) ||
            (length(a) == length(b) && a.measurement.z[0] < b.measurement.z[0]);
@@ -152,14 +186,20 @@ Detections contactEdges(Detections found, double camera_height_m, const FloorEdg
       const double apart_m = apart(detection, longer);
       // An edge this high above the floor seems to lie so much farther out.
       const double skirting_m = longer.measurement.z[1] * kSkirting_m /
-                                std::max(camera_height_m - kSkirting_m, kSkirting_m);
+                                std::max(camera.height() - kSkirting_m, kSkirting_m);
       const double one_line_m = 0.04 + 2.0 * std::sqrt(detection.measurement.R(1, 1)) / 3.0;
-      if (apart_m < std::min(one_line_m, 0.1)) {
+      const bool along = apart_m < options.parallel_m + skirting_m &&
+                         overlap(detection, longer) > 0.5 * length(detection);
+      const bool nearer = detection.measurement.z[1] < longer.measurement.z[1];
+      const auto floor_between = along ? isFloorBetween(depth, camera, nearer ? detection : longer,
+                                                        nearer ? longer : detection)
+                                       : std::nullopt;
+      if (floor_between.value_or(false)) {
+        (nearer ? detection : longer).refusal = "floor goes on behind it";
+      } else if (!floor_between && apart_m < std::min(one_line_m, 0.1)) {
         extend(longer, detection);
         taken = true;
-      } else if (apart_m < options.parallel_m + skirting_m &&
-                 overlap(detection, longer) > 0.5 * length(detection)) {
-        const bool nearer = detection.measurement.z[1] < longer.measurement.z[1];
+      } else if (along) {
         if (nearer && length(detection) > 0.5 * length(longer)) {
           longer.refusal = "a nearer edge runs along it";
         } else {
@@ -195,7 +235,7 @@ Detections FloorEdgeDetector::detect(const Frame& frame, const RefinedLines& lin
     detection.refusal = reasonToRefuse(votes, *floor_line, !depth.empty(), options_);
     found.push_back(std::move(detection));
   }
-  return contactEdges(std::move(found), camera.height(), options_);
+  return contactEdges(std::move(found), depth, camera, options_);
 }
 
 }  // namespace colonnade
