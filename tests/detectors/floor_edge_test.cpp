@@ -79,6 +79,24 @@ TEST(FloorEdgeDetector, TakesTheFootOfASkirtingBoard) {
   }
 }
 
+TEST(FloorEdgeDetector, TakesTheFootOfAWallAndNotAJointOfTheFloorBeforeIt) {
+  // A strip of darker tiles 9 cm wide before the wall: nearer than the tilt lets depth tell.
+  Scene scene;
+  scene.faces.push_back({{2.17, -3.0}, {2.17, 3.0}, 60.0});
+  scene.strips.push_back({{2.125, -3.0}, {2.125, 3.0}, 0.09, 130.0});
+  const Frame frame = withNoise(render(scene, {0.9, radians(12.0), 0.0, 0.0, {0.0, 0.0}}), 2.0, 5);
+  const auto all = detectAll(frame);
+  const auto edges = accepted(all, LandmarkKind::kFloorEdge);
+  const auto* foot = edgeTowards(edges, 0.0);
+  ASSERT_TRUE(foot);
+  EXPECT_NEAR(foot->measurement.z[1], 2.17, 0.01);
+  int joints = 0;
+  for (const auto& detection : all)
+    if (detection.refusal == "floor goes on behind it" && detection.measurement.z[1] < 2.1)
+      ++joints;
+  EXPECT_GE(joints, 1);
+}
+
 TEST(FloorEdgeDetector, RefusesPaintOnTheFloorWhenDepthShowsThatItGoesOn) {
   Scene scene;
   scene.faces.push_back({{6.0, -6.0}, {6.0, 6.0}, 150.0});

@@ -117,6 +117,13 @@ double apart(const Detection& a, const Detection& b) {
   return std::max(off(a.p_robot_a), off(a.p_robot_b));
 }
 
+/// Whether the middle of `a` lies before the line of `b`, which need not be quite parallel to it.
+bool isNearer(const Detection& a, const Detection& b) {
+  const auto& z = b.measurement.z;
+  const Eigen::Vector2d middle = 0.5 * (a.p_robot_a + a.p_robot_b) - b.measurement.p_robot_camera;
+  return std::cos(z[0]) * middle.x() + std::sin(z[0]) * middle.y() < z[1];
+}
+
 double overlap(const Detection& a, const Detection& b) {
   const Eigen::Vector2d along = (b.p_robot_b - b.p_robot_a).normalized();
   const double s = along.dot(a.p_robot_a - b.p_robot_a);
@@ -145,7 +152,7 @@ void extend(Detection& kept, const Detection& other) {
 std::optional<bool> isFloorBetween(const DepthView& depth, const LevelledCamera& camera,
                                    const Detection& near, const Detection& far) {
   constexpr int kPlaces = 20, kEnough = 6;
-  constexpr double kNearestApart_px = 4.0;
+  constexpr double kNearestApart_px = 6.0;  // depth and colour edges are some pixels apart
   const Eigen::Vector2d& p_camera = far.measurement.p_robot_camera;
   const Eigen::Vector2d normal(std::cos(far.measurement.z[0]), std::sin(far.measurement.z[0]));
   std::vector<double> growth;  // as a share of what the floor's would be
@@ -190,7 +197,7 @@ Detections contactEdges(Detections found, const DepthView& depth, const Levelled
       const double one_line_m = 0.04 + 2.0 * std::sqrt(detection.measurement.R(1, 1)) / 3.0;
       const bool along = apart_m < options.parallel_m + skirting_m &&
                          overlap(detection, longer) > 0.5 * length(detection);
-      const bool nearer = detection.measurement.z[1] < longer.measurement.z[1];
+      const bool nearer = isNearer(detection, longer);
       const auto floor_between = along ? isFloorBetween(depth, camera, nearer ? detection : longer,
                                                         nearer ? longer : detection)
                                        : std::nullopt;
