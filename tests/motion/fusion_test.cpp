@@ -5,6 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <memory>
 
+#include "camera_by_wheels.hpp"
 #include "colonnade/motion/motion_estimator.hpp"
 #include "synthetic_scene.hpp"
 
@@ -18,11 +19,11 @@ using testing::Scene;
 /// A camera on wheels that moves by `true_step` in each frame, while the wheels read `read_step`.
 class BothOdometries : public ::testing::Test {
  protected:
-  enum class View { kScene, kDark, kMovingLight };
+  enum class View { kScene, kDark, kOpenEnd, kMovingLight };
   MotionIncrement drive(const Pose2& true_step, const Pose2& read_step,
                         const Eigen::Vector3d& wheel_sigmas, View view = View::kScene) {
     MotionEstimator estimator(options_, std::make_shared<CameraTracker>(options_));
-    Scene scene = Scene::corridor(true, true);
+    Scene scene = Scene::corridor(true, view != View::kOpenEnd);
     // Only the floor and the wall ahead: nothing but brightness tells the place across.
     if (view == View::kMovingLight) scene.walls = {scene.walls.front(), scene.walls.back()};
     MotionIncrement motion;
@@ -91,10 +92,19 @@ TEST_F(BothOdometries, LongStepsAreMeasuredFromWhereTheWheelsSay) {
 }
 
 TEST_F(BothOdometries, StepsBeyondReachAreLeftToTheWheels) {
-  const Pose2 read{1.25, 0.01, 0.0};
-  const auto motion = drive({1.2, 0.0, 0.0}, read, coarse_);
+  period_s_ = 0.5;
+  options_.visual_reach_m = 0.3;
+  const Pose2 read{0.5, 0.01, 0.0};
+  const auto motion = drive({0.48, 0.0, 0.0}, read, coarse_);
   EXPECT_EQ(motion.source, MotionSource::kOdometry);
   EXPECT_LT((motion.T_previous_robot.vector() - read.vector()).norm(), 1e-12);
+}
+
+TEST_F(BothOdometries, WheelsThatSlipWhereOnlyBrightnessTellsAreDoubted) {
+  // An open corridor: surfaces fix heading and the place across, only brightness the way.
+  const Eigen::Vector3d sigmas(0.004, 0.004, radians(0.2));
+  const auto motion = drive({0.02, 0.0, 0.0}, {0.06, 0.0, 0.0}, sigmas, View::kOpenEnd);
+  EXPECT_GT(std::sqrt(motion.covariance(0, 0)), 1.7 * sigmas.x());
 }
 
 TEST_F(BothOdometries, WhereBrightnessContradictsTheWheelsSurfacesCount) {
@@ -114,6 +124,35 @@ TEST_F(BothOdometries, AConflictKeepsTheWheelsWithMoreDoubt) {
   EXPECT_LT(motion.T_previous_robot.vector().norm(), 1e-12);
   EXPECT_GT(motion.covariance(0, 0), 2.0 * sigmas.x() * sigmas.x());
   EXPECT_LT(motion.covariance(0, 0), 10.0 * sigmas.x() * sigmas.x());
+}
+
+TEST(CameraByWheels, CovarianceFollowsTheIncrement) {
+  // Two mountings, off the robot's centre and rolled, and a turn between.
+  Eigen::Isometry3d before = cameraInWorld(0.2, -0.1, 1.1, radians(20.0), radians(12.0), 0.05);
+  Eigen::Isometry3d now = cameraInWorld(0.25, -0.05, 1.12, radians(25.0), radians(9.0), -0.03);
+  const Pose2 step{0.3, -0.05, radians(30.0)};
+  OdometryReading from{{1.0, 2.0, 0.7}, std::nullopt};
+  const auto moved = [&](const Eigen::Vector3d& error) {
+    const Eigen::Vector3d disturbed = step.vector() + error;
+    OdometryReading to{from.T_odom_robot * Pose2{disturbed.x(), disturbed.y(), disturbed.z()},
+                       Eigen::Matrix3d(Eigen::Vector3d(4e-4, 1e-4, 9e-4).asDiagonal())};
+    return cameraByWheels(from, to, before, now, {});
+  };
+  const CameraByWheels there = moved(Eigen::Vector3d::Zero());
+  constexpr double kStep = 1e-6;
+  Eigen::Matrix<double, 6, 3> J;
+  for (int i = 0; i < 3; ++i)
+    J.col(i) = logSe3(there.T_previous_camera.inverse() *
+                      moved(kStep * Eigen::Vector3d::Unit(i)).T_previous_camera) /
+               kStep;
+  const Matrix6 of_wheels = J * Eigen::Vector3d(4e-4, 1e-4, 9e-4).asDiagonal() * J.transpose();
+  // What remains is sway and nod: of the robot, up and about its two level axes, and sideways.
+  const Matrix6 rest = there.covariance - of_wheels;
+  const Matrix6 Ad = adjoint(now);
+  const Matrix6 in_robot = Ad * rest * Ad.transpose();
+  EXPECT_LT((in_robot - Matrix6(in_robot.diagonal().asDiagonal())).cwiseAbs().maxCoeff(), 1e-9);
+  EXPECT_NEAR(in_robot(5, 5), 0.0, 1e-9);
+  EXPECT_GT(in_robot(3, 3), 1e-6);
 }
 
 }  // namespace

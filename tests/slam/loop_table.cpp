@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Colonnade authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Drives many seeds of a world at the level of detections and prints what drift and loop closing
-// come to:  loop_table WORLD SEEDS [--no-depth] [--visual] [Section.key=value ...]
+// come to:  loop_table WORLD SEEDS [--no-depth] [--visual] [-v] [world:AMENDMENT]
+//     [move:AT_S,X,Y,RADIUS,BY_X,BY_Y] [Section.key=value ...]
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -112,7 +113,8 @@ Outcome drive(const World& world, std::uint64_t seed, const testing::PlanSensor&
 int main(int argc, char** argv) try {
   if (argc < 3) {
     std::fprintf(stderr,
-                 "loop_table WORLD SEEDS [--no-depth] [--visual] [-v] [Section.key=value ...]\n");
+                 "loop_table WORLD SEEDS [--no-depth] [--visual] [-v] [world:AMENDMENT] "
+                 "[move:AT_S,X,Y,RADIUS,BY_X,BY_Y] [Section.key=value ...]\n");
     return 2;
   }
   testing::PlanSensor sensor;

@@ -155,11 +155,16 @@ std::optional<bool> isFloorBetween(const DepthView& depth, const LevelledCamera&
   constexpr double kNearestApart_px = 6.0;  // depth and colour edges are some pixels apart
   const Eigen::Vector2d& p_camera = far.measurement.p_robot_camera;
   const Eigen::Vector2d normal(std::cos(far.measurement.z[0]), std::sin(far.measurement.z[0]));
+  const Eigen::Vector2d far_along = (far.p_robot_b - far.p_robot_a).normalized();
   std::vector<double> growth;  // as a share of what the floor's would be
   for (int i = 0; i <= kPlaces; ++i) {
     const Eigen::Vector2d to_near =
         near.p_robot_a + (near.p_robot_b - near.p_robot_a) * i / kPlaces - p_camera;
     const Eigen::Vector2d to_far = to_near * (far.measurement.z[1] / normal.dot(to_near));
+    const double along = far_along.dot(p_camera + to_far - far.p_robot_a);
+    const double deeper_m = to_far.norm() - to_near.norm();
+    if (normal.dot(to_near) <= 0.0 || deeper_m <= 0.0 || along < 0.0 || along > length(far))
+      continue;
     const auto pixelAt = [&](double share) {
       const Eigen::Vector2d p = p_camera + to_near + share * (to_far - to_near);
       return camera.project({p.x(), p.y(), 0.0});
@@ -168,7 +173,7 @@ std::optional<bool> isFloorBetween(const DepthView& depth, const LevelledCamera&
     if (!a || !b || !early || !late || (*b - *a).norm() < kNearestApart_px) continue;
     const auto first = depth.at(*early), second = depth.at(*late);
     if (!first || !second) continue;
-    growth.push_back((second->range_m - first->range_m) / (0.5 * (to_far - to_near).norm()));
+    growth.push_back((second->range_m - first->range_m) / (0.5 * deeper_m));
   }
   if (static_cast<int>(growth.size()) < kEnough) return std::nullopt;
   std::nth_element(growth.begin(), growth.begin() + growth.size() / 2, growth.end());

@@ -20,8 +20,8 @@ namespace {
 constexpr int kLevels = 4;
 constexpr int kMinPoints = 50;  ///< of one kind, to rely on it
 constexpr double kLongestCoast_s = 1.0;
-constexpr double kDoubtInWheels = 6.0;
-constexpr double kConflict = 22.46;  ///< chi squared, 6 degrees of freedom, 0.1 %
+constexpr double kPriorSigmas = 6.0;  ///< times the wheels', so that they hardly count twice
+constexpr double kSurprise = 22.46;   ///< chi squared, 6 degrees of freedom, 0.1 %
 
 Eigen::Isometry3d scaledMotion(const Eigen::Isometry3d& T, double factor) {
   Eigen::Isometry3d out = Eigen::Isometry3d::Identity();
@@ -69,10 +69,10 @@ struct CameraTracker::Impl {
                options.max_turn_rate * time_s + radians(2.0);
   }
 
-  /// Far from what the former motion lets expect: perhaps a wrong minimum.
+  /// Far from what is expected: perhaps a wrong minimum.
   static bool isSurprising(const Eigen::Isometry3d& T_previous_camera, const MotionPrior& prior) {
     const Vector6 e = logSe3(prior.T_reference_current.inverse() * T_previous_camera);
-    return e.dot(prior.information * e) > kConflict;
+    return e.dot(prior.information * e) > kSurprise;
   }
 
   bool seesTheSame(const Alignment& alignment) const {
@@ -89,10 +89,22 @@ struct CameraTracker::Impl {
              alignment.surface_share >= options.min_share));
   }
 
-  std::optional<CameraByWheels> byWheels(const Frame& frame) const {
+  /// Nothing from an odometry that jumps.
+  std::optional<CameraByWheels> byWheels(const Frame& frame, double dt_s) const {
     if (options.source != "auto" || !odometry_previous || !frame.odometry) return std::nullopt;
-    return cameraByWheels(*odometry_previous, *frame.odometry, T_robot_camera_previous,
-                          frame.T_robot_camera, options);
+    OdometryReading now = *frame.odometry;
+    // The log's covariance is of the last frame's step; frames between were not tracked.
+    if (frame.index != *last_index + 1) now.increment_covariance.reset();
+    auto moved = cameraByWheels(*odometry_previous, now, T_robot_camera_previous,
+                                frame.T_robot_camera, options);
+    return isPlausible(moved.T_previous_camera, dt_s) ? std::optional(moved) : std::nullopt;
+  }
+
+  Matrix6 covarianceOf(const Alignment& alignment,
+                       const Eigen::Isometry3d& T_previous_camera) const {
+    const Matrix6 Ad = adjoint(T_previous_camera.inverse());
+    return alignment.covariance + Ad * covariance_key_previous * Ad.transpose() +
+           modelError(T_previous_camera);
   }
 
   /// Before a bare wall brightness slides, and is sure of it.
@@ -101,8 +113,8 @@ struct CameraTracker::Impl {
     const Eigen::Isometry3d T_previous_camera =
         T_key_previous.inverse() * alignment.T_reference_current;
     const Vector6 e = logSe3(by_wheels->T_previous_camera.inverse() * T_previous_camera);
-    const Matrix6 S = by_wheels->covariance + alignment.covariance + modelError(T_previous_camera);
-    return e.dot(S.llt().solve(e)) > kConflict;
+    const Matrix6 S = by_wheels->covariance + covarianceOf(alignment, T_previous_camera);
+    return e.dot(S.llt().solve(e)) > kSurprise;
   }
 
   Eigen::Isometry3d predicted(double dt_s) const {
@@ -142,14 +154,17 @@ struct CameraTracker::Impl {
            share < options.keyframe_share;
   }
 
-  /// The motion by the wheels, at `kDoubtInWheels` times its sigmas, so that their word hardly
-  /// counts again when the result is fused with them. Without wheels the former velocity, less sure
-  /// in each direction by a random change of it; what nothing measures errs the same way frame
-  /// after frame, so there the sigmas add, not the variances.
+  /// The motion by the wheels, at `kPriorSigmas` times its sigmas, so that their word hardly
+  /// counts again when the result is fused with them; without wheels the former velocity.
   MotionPrior priorOfMotion(double dt_s) const {
-    if (by_wheels)
-      return {by_wheels->T_previous_camera,
-              (kDoubtInWheels * kDoubtInWheels * by_wheels->covariance).inverse()};
+    if (!by_wheels) return priorOfVelocity(dt_s);
+    return {by_wheels->T_previous_camera,
+            (kPriorSigmas * kPriorSigmas * by_wheels->covariance).inverse()};
+  }
+
+  /// The former velocity, less sure in each direction by a random change of it. What nothing
+  /// measures errs the same way frame after frame, so there the sigmas add, not the variances.
+  MotionPrior priorOfVelocity(double dt_s) const {
     const double time_s = std::max(dt_s, 0.01);
     Vector6 change;
     change << Eigen::Vector3d::Constant(options.coasting_speed_sigma_m_s * time_s),
@@ -178,19 +193,35 @@ struct CameraTracker::Impl {
     return prior;
   }
 
-  Alignment estimate(const RgbdPyramid& current, const MotionPrior& prior_of_motion) const {
-    const MotionPrior prior{T_key_previous * prior_of_motion.T_reference_current,
-                            prior_of_motion.information};
-    if (options.engine == "direct") {
-      const Alignment both = align(*key, current, prior, {T_key_previous}, alignment_options);
-      if ((seesTheSame(both) && !contradictsWheels(both)) || !options.use_surfaces) return both;
-      // Bare walls, a dark or overexposed image: surfaces alone.
-      AlignmentOptions surfaces_only = alignment_options;
-      surfaces_only.use_photometric = false;
-      return align(*key, current, prior, {T_key_previous}, surfaces_only);
-    }
+  MotionPrior fromKey(const MotionPrior& of_motion) const {
+    return {T_key_previous * of_motion.T_reference_current, of_motion.information};
+  }
+
+  /// Brightness and surfaces, or surfaces alone: before bare walls, in a dark or overexposed image.
+  Alignment directly(const RgbdPyramid& current, const MotionPrior& of_motion, double dt_s) {
+    const MotionPrior prior = fromKey(of_motion);
+    // Standing still is a second start, but wheels know better, unless they slip.
+    const std::vector<Eigen::Isometry3d> still{T_key_previous};
+    const auto no_other = by_wheels ? std::vector<Eigen::Isometry3d>{} : still;
+    Alignment both = align(*key, current, prior, no_other, alignment_options);
+    if (by_wheels && !seesTheSame(both))
+      both = align(*key, current, fromKey(priorOfVelocity(dt_s)), still, alignment_options);
+    const bool seen = seesTheSame(both);
+    const bool contradicts = seen && contradictsWheels(both);
+    if ((seen && !contradicts) || !options.use_surfaces) return both;
+    AlignmentOptions surfaces_only = alignment_options;
+    surfaces_only.use_photometric = false;
+    const Alignment surfaces = align(*key, current, prior, no_other, surfaces_only);
+    if (seen && !isSound(surfaces)) return both;
+    motion.contradicts_wheels = contradicts;
+    return surfaces;
+  }
+
+  Alignment estimate(const RgbdPyramid& current, const MotionPrior& of_motion, double dt_s) {
+    if (options.engine == "direct") return directly(current, of_motion, dt_s);
+    const MotionPrior prior = fromKey(of_motion);
     const auto T_previous_camera =
-        openCvOdometry(options.engine, previous, current, prior_of_motion.T_reference_current);
+        openCvOdometry(options.engine, previous, current, of_motion.T_reference_current);
     if (!T_previous_camera) return {};
     return evaluateAt(*key, current, prior, T_key_previous * *T_previous_camera, alignment_options);
   }
@@ -201,19 +232,19 @@ struct CameraTracker::Impl {
     const MotionPrior prior = priorOfMotion(dt_s);
     if (!key) makePreviousTheKey();
     for (int attempt = 0; attempt < 2; ++attempt) {
-      const Alignment alignment = estimate(current, prior);
+      motion.contradicts_wheels = false;
+      const Alignment alignment = estimate(current, prior, dt_s);
       const Eigen::Isometry3d T_previous_camera =
           T_key_previous.inverse() * alignment.T_reference_current;
       const bool worth_a_second_look = attempt == 0 && isSurprising(T_previous_camera, prior);
       if (isSound(alignment) && isPlausible(T_previous_camera, dt_s) && !worth_a_second_look) {
-        const Matrix6 Ad = adjoint(T_previous_camera.inverse());
         motion.T_previous_camera = T_previous_camera;
-        motion.covariance = alignment.covariance + Ad * covariance_key_previous * Ad.transpose() +
-                            modelError(T_previous_camera);
+        motion.covariance = covarianceOf(alignment, T_previous_camera);
         motion.source = sourceOf(alignment);
         T_key_previous = alignment.T_reference_current;
         covariance_key_previous = alignment.covariance;
-        if (keyIsWornOut(alignment)) key.reset();
+        // Where brightness was left out, the pose at the key frame is not worth another look at it.
+        if (keyIsWornOut(alignment) || motion.contradicts_wheels) key.reset();
         return true;
       }
       if (attempt == 0) makePreviousTheKey();
@@ -226,7 +257,8 @@ struct CameraTracker::Impl {
     coasted_s += dt_s;
     const MotionPrior prior = priorOfMotion(dt_s);
     motion.covariance = prior.information.inverse();
-    if (coasted_s < kLongestCoast_s) motion.T_previous_camera = prior.T_reference_current;
+    if (by_wheels || coasted_s < kLongestCoast_s)
+      motion.T_previous_camera = prior.T_reference_current;
     motion.source = MotionSource::kConstantVelocity;
   }
 };
@@ -245,7 +277,7 @@ const CameraMotion& CameraTracker::track(const Frame& frame) {
   self.motion = CameraMotion{};
   RgbdPyramid current = makePyramid(frame, kLevels);
   if (!is_first) {
-    self.by_wheels = self.byWheels(frame);
+    self.by_wheels = self.byWheels(frame, dt_s);
     if (self.alignTo(current, dt_s)) {
       self.coasted_s = 0.0;
     } else {

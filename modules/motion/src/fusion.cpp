@@ -18,6 +18,8 @@ constexpr double kDoubtInWheels = 4.0;
 
 }  // namespace
 
+void doubt(MotionIncrement& wheels) { wheels.covariance *= kDoubtInWheels; }
+
 MotionIncrement fuse(const MotionIncrement& wheels, const MotionIncrement& camera) {
   const Eigen::Matrix3d S = wheels.covariance + camera.covariance;
   const Eigen::LLT<Eigen::Matrix3d> llt(S);
@@ -28,7 +30,7 @@ MotionIncrement fuse(const MotionIncrement& wheels, const MotionIncrement& camer
 
   MotionIncrement fused = wheels;
   if (!(surprise <= kConflict)) {
-    fused.covariance *= kDoubtInWheels;
+    doubt(fused);
     return fused;
   }
   const Eigen::Matrix3d K = llt.solve(wheels.covariance).transpose();

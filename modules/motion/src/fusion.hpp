@@ -12,4 +12,7 @@ namespace colonnade {
 /// standard deviations, because wheels slip more rarely than an alignment goes wrong.
 MotionIncrement fuse(const MotionIncrement& wheels, const MotionIncrement& camera);
 
+/// Twice the standard deviations, for wheels that something contradicts.
+void doubt(MotionIncrement& wheels);
+
 }  // namespace colonnade

@@ -48,6 +48,8 @@ void LoopCloser::updateSleep(const EkfSlam& filter, LandmarkBook& book) {
   sleep_checked_m_ = book.way();
   for (const Block& block : filter.state().blocks) {
     if (!block.isLandmark() || book.isEstranged(block.id)) continue;
+    // What no closing would wake: a fixed map is for the association then.
+    if (!options_.enabled && filter.isFixed(block.id)) continue;
     const bool long_ago = book.way() - book.seenOnWay(block.id).last_m > options_.sleep_after_m;
     if (!long_ago && !book.isAsleep(block.id)) continue;
     const double sigma = relativeSigma(block.id, filter);
@@ -89,6 +91,10 @@ std::optional<LoopCandidate> LoopCloser::step(const EkfSlam& filter, const Landm
   return last_;
 }
 
+bool LoopCloser::mayReturn(const LandmarkBook& book) const {
+  return options_.enabled && !returned_ && book.way() - new_ground_m_ <= kAfterNewGround_m;
+}
+
 int LoopCloser::stepReturn(const EkfSlam& filter, const LandmarkBook& book, const Trail& trail) {
   if (!options_.enabled) return 0;
   if (trail.distanceToFormer(filter, kYoungTrail_m) > kOnTrail_m) {
@@ -96,7 +102,7 @@ int LoopCloser::stepReturn(const EkfSlam& filter, const LandmarkBook& book, cons
     returned_ = false;
     return 0;
   }
-  if (returned_ || book.way() - new_ground_m_ > kAfterNewGround_m) return 0;
+  if (!mayReturn(book)) return 0;
   std::vector<Eigen::Vector2d> places;
   for (const Block& block : filter.state().blocks) {
     if (block.block_kind != BlockKind::kPoint) continue;

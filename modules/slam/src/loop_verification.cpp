@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How Mapper closes a loop, and takes it back when what is seen afterwards contradicts it.
 #include <algorithm>
+#include <optional>
 #include <set>
+#include <utility>
 
 #include "colonnade/base/text.hpp"
 #include "colonnade/slam/mapper.hpp"
@@ -19,12 +21,13 @@ constexpr double kReach_m = 8.0;
 constexpr double kCopyEvery_m = 0.5;
 /// From the first old landmark met the return is recognised within this way, or there is none.
 constexpr double kReturnWithin_m = 8.0;
+/// A robot that stands still fills no memory: so many frames are kept to be mapped again.
+constexpr std::size_t kMostFrames = 1000;
 
 }  // namespace
 
 void Mapper::close(const LoopCandidate& loop, const Observation& seen, std::vector<Event>& events) {
   const LoopOptions& options = options_.loops;
-  before_return_.reset();
   Snapshot snapshot{estimate_, estimate_.landmarks.way(), {}, loop.best.shift};
   dropBearings(snapshot.estimate);
   for (const Block& block : estimate_.filter.state().blocks)
@@ -33,6 +36,7 @@ void Mapper::close(const LoopCandidate& loop, const Observation& seen, std::vect
   if (!fuse(loop.best.twins, {options.twin_place_m, options.twin_direction}, estimate_.filter,
             estimate_.landmarks))
     return;
+  before_return_.reset();
   ++estimate_.closings;
   const Eigen::Vector2d moved = estimate_.filter.pose().translation() - before.translation();
   events.push_back({seen.stamp_s, seen.index, "loop closing", std::nullopt,
@@ -85,26 +89,33 @@ void Mapper::awaitReturn() {
   auto& e = estimate_;
   const double way_m = e.landmarks.way();
   if (before_return_) {
-    const auto& old = before_return_->old;
-    const bool met = std::any_of(old.begin(), old.end(), [&](LandmarkId id) {
-      return e.landmarks.seenOnWay(id).last_m > before_return_->way_m;
-    });
-    if (way_m - before_return_->way_m < (met ? kReturnWithin_m : kCopyEvery_m)) return;
+    Snapshot& before = *before_return_;
+    if (!before.met && std::any_of(before.old.begin(), before.old.end(), [&](LandmarkId id) {
+          return e.landmarks.seenOnWay(id).last_m > before.way_m;
+        })) {
+      before.met = true;
+      before.way_m = way_m;
+    }
+    const double within_m = before.met ? kReturnWithin_m : kCopyEvery_m;
+    if (way_m - before.way_m < within_m && before.since.size() < kMostFrames) return;
     before_return_.reset();
   }
-  if (!e.grows) return;
+  if (!e.grows || !e.loops.mayReturn(e.landmarks)) return;
+  const auto isOld = [&](const Block& block) {
+    return block.block_kind == BlockKind::kPoint && block.isLandmark() &&
+           !e.landmarks.isEstranged(block.id) &&
+           way_m - e.landmarks.seenOnWay(block.id).last_m >= LandmarkBook::kLongWay_m;
+  };
+  const auto& blocks = e.filter.state().blocks;
+  const Eigen::Vector2d p_robot = e.filter.pose().translation();
+  if (std::none_of(blocks.begin(), blocks.end(), [&](const Block& block) {
+        return isOld(block) &&
+               (e.filter.state().values(block).head<2>() - p_robot).norm() < kReach_m;
+      }))
+    return;
   std::set<LandmarkId> old;
-  bool near = false;
-  for (const Block& block : e.filter.state().blocks) {
-    if (block.block_kind != BlockKind::kPoint || !block.isLandmark() ||
-        e.landmarks.isEstranged(block.id) ||
-        way_m - e.landmarks.seenOnWay(block.id).last_m < LandmarkBook::kLongWay_m)
-      continue;
-    old.insert(block.id);
-    const Eigen::Vector2d p = e.filter.state().values(block);
-    near = near || (p - e.filter.pose().translation()).norm() < kReach_m;
-  }
-  if (!near) return;
+  for (const Block& block : blocks)
+    if (isOld(block)) old.insert(block.id);
   before_return_ = Snapshot{e, way_m, old, std::nullopt};
   dropBearings(before_return_->estimate);
   e.upkeep.watch(std::move(old));
@@ -114,7 +125,8 @@ void Mapper::awaitReturn() {
 void Mapper::verify(const Observation& seen, std::vector<Event>& events) {
   if (estimate_.upkeep.tally().doubt > kMostDoubt)
     undo(seen, events);
-  else if (estimate_.landmarks.way() - snapshot_->way_m > options_.loops.verify_m)
+  else if (estimate_.landmarks.way() - snapshot_->way_m > options_.loops.verify_m ||
+           snapshot_->since.size() > kMostFrames)
     snapshot_.reset();
 }
 

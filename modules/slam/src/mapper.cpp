@@ -7,7 +7,6 @@
 #include <map>
 #include <utility>
 
-#include "colonnade/base/text.hpp"
 #include "colonnade/slam/floor_directions.hpp"
 
 namespace colonnade {
@@ -93,7 +92,7 @@ MapperReport Mapper::step(const Observation& seen) {
     verify(seen, report.events);
   } else if (before_return_ && estimate_.closings > closings) {
     snapshot_ = std::exchange(before_return_, std::nullopt);
-    snapshot_->way_m = estimate_.landmarks.way();
+    snapshot_->way_m = estimate_.landmarks.way();  // from here on it is verified
   } else if (const auto loop = estimate_.loops.step(estimate_.filter, estimate_.landmarks)) {
     close(*loop, seen, report.events);
   }

@@ -22,6 +22,8 @@ constexpr double kWorstMiss = 1.0;
 /// From elsewhere something else is taken for a landmark so many times as often as the landmark
 /// itself is seen from here.
 constexpr double kMistaken = 0.5;
+/// What one look may add to the doubt.
+constexpr double kMostDoubt = 4.0;
 
 }  // namespace
 
@@ -87,23 +89,25 @@ double Upkeep::Record::share() const {
   return std::clamp((hits + 2.0) / (looks + 3.0), 0.15, 0.95);
 }
 
-void Upkeep::weigh(const Record& watched) {
+double Upkeep::weigh(const Record& watched) {
   const double here = watched.share(), elsewhere = kMistaken * here;
-  const double ratio = watched.hit ? elsewhere / here : (1.0 - elsewhere) / (1.0 - here);
   ++tally_.expected;
   tally_.seen += watched.hit ? 1 : 0;
-  tally_.doubt = std::max(0.0, tally_.doubt + std::log(ratio));
+  return std::log(watched.hit ? elsewhere / here : (1.0 - elsewhere) / (1.0 - here));
 }
 
 void Upkeep::endLook(std::vector<LandmarkId>& gone) {
   int expected = 0, hits = 0;
+  double doubt = 0.0;
   const auto counts = [&](const Record& r) { return 2 * r.frames_expected >= frames_ || r.hit; };
   for (const auto& [id, record] : records_) {
     if (!counts(record)) continue;
     ++expected;
     hits += record.hit ? 1 : 0;
-    if (watched_.contains(id)) weigh(record);
+    if (watched_.contains(id)) doubt += weigh(record);
   }
+  // Who sees nothing at all is in the dark, not elsewhere.
+  if (hits > 0) tally_.doubt = std::max(0.0, tally_.doubt + std::min(doubt, kMostDoubt));
   const bool clear = expected >= kClearCount && hits >= kClearShare * expected;
   for (auto& [id, record] : records_) {
     if (clear && counts(record)) {

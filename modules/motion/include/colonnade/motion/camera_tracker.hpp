@@ -19,12 +19,15 @@ struct CameraMotion {
   /// Of e (metres, then radians, axes of this frame's camera) in T_true = T * exp(e).
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
   MotionSource source = MotionSource::kNone;
+  /// Brightness contradicted the wheels and was left out: what only brightness could tell rests on
+  /// wheels that may slip.
+  bool contradicts_wheels = false;
   std::optional<std::size_t> previous_index;  ///< of the former frame tracked
 };
 
-/// Visual odometry on gray image and depth: direct alignment to a key frame, or the former velocity
-/// with wide noise while nothing can be aligned. Works at no more than 400 pixels of width.
-/// Deterministic, single-threaded.
+/// Visual odometry on gray image and depth: direct alignment to a key frame, starting where the
+/// wheels say (`source = auto`), else at the former velocity; that with wide noise while nothing
+/// can be aligned. Works at no more than 400 pixels of width. Deterministic, single-threaded.
 class CameraTracker {
  public:
   explicit CameraTracker(const MotionOptions& options);

@@ -48,8 +48,8 @@ struct MotionOptions {
   double max_speed_m_s = 2.0;
   double max_turn_rate = radians(150.0);
 
-  /// The former velocity with this random change of it: all there is when nothing measures, and a
-  /// weak prior of visual odometry.
+  /// The former velocity with this random change of it: all there is when nothing measures, and
+  /// without wheels a weak prior of visual odometry.
   double coasting_speed_sigma_m_s = 0.4;
   double coasting_turn_sigma = radians(30.0);  ///< rad/s
 

@@ -28,6 +28,8 @@ class LoopCloser {
   /// ground to a place that the association itself knows again, because the way was short or well
   /// measured. Says so once per return; the number of places recognised, else 0.
   int stepReturn(const EkfSlam& filter, const LandmarkBook& book, const Trail& trail);
+  /// Whether the next frames may be such a return: not where the robot has long been before.
+  bool mayReturn(const LandmarkBook& book) const;
   /// The last search, for reports: empty refusal and no twins when there was none.
   const LoopCandidate& last() const { return last_; }
   /// A closing with this displacement turned out wrong: it is not tried again.

@@ -31,7 +31,9 @@ struct LoopOptions {
   double verify_m = 4.0;
 
   void visit(OptionVisitor& v) {
-    v.flag("enabled", enabled, "recognise places seen before");
+    v.flag(
+        "enabled", enabled,
+        "recognise places seen before; without, what the way made uncertain sleeps all the same");
     v.number("sleep_after_m", sleep_after_m, {0.5, 1000},
              "way since a landmark was last seen, after which it may fall asleep");
     v.number("sleep_sigma_m", sleep_sigma_m, {0.01, 10},

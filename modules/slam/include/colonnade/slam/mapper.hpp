@@ -102,10 +102,11 @@ class Mapper {
   /// As it stood before a loop was closed, with what was seen since.
   struct Snapshot {
     Estimate estimate;
-    double way_m = 0.0;                    ///< of the closing; before a return: when it was taken
+    double way_m = 0.0;  ///< of the closing; before a return: of the copy, or of the first meeting
     std::set<LandmarkId> old;              ///< landmarks the closing brings back
     std::optional<Eigen::Vector2d> shift;  ///< of the constellation; the association has none
     std::vector<Observation> since = {};
+    bool met = false;  ///< an old landmark, since the copy
   };
 
   MapperReport advance(const Observation& seen);

@@ -69,11 +69,11 @@ class Upkeep {
     watched_ = std::move(landmarks);
     tally_ = {};
   }
-  const std::set<LandmarkId>& watched() const { return watched_; }
   /// Of the watched landmarks: looks that should have shown one, and those that did. `doubt` is
   /// the cumulative sum of the log-likelihood ratio of their hits and misses, that the robot is
   /// elsewhere over that it is here, never below zero: high after a run of misses, however much
-  /// was seen before (E. S. Page, Continuous inspection schemes, Biometrika 41, 1954).
+  /// was seen before (E. S. Page, Continuous inspection schemes, Biometrika 41, 1954). A look at
+  /// nothing but absence adds nothing.
   struct Tally {
     int expected = 0;
     int seen = 0;
@@ -94,7 +94,7 @@ class Upkeep {
     /// Of looks that show it, as far as known: a Beta(2, 1) prior.
     double share() const;
   };
-  void weigh(const Record& watched);
+  double weigh(const Record& watched);
   void endLook(std::vector<LandmarkId>& gone);
 
   UpkeepOptions options_;
