@@ -128,14 +128,13 @@ std::vector<LandmarkId> EkfSlam::restingNear(std::span<const Measurement> measur
     const double apart =
         (resting_.valueThen(block) - sighting.p_world).norm() - move * std::sqrt(spread2);
     if (apart > 0.0 && apart * apart > kFirstLook2 * (sighting.spread2 + spread2)) return false;
-    const BlockVector y = resting_.value(block, state_);
-    const Eigen::MatrixXd P_block = resting_.covariance(block);
-    const auto predicted = predictMeasurement(pose(), block.block_kind, y, m);
-    const Eigen::MatrixXd cross = predicted.H_robot * resting_.covarianceWithRobot(block, state_) *
-                                  predicted.H_block.transpose();
+    const RestingMap::Marginal marginal = resting_.marginal(block, state_);
+    const auto predicted = predictMeasurement(pose(), block.block_kind, marginal.y, m);
+    const Eigen::MatrixXd cross =
+        predicted.H_robot * marginal.P_robot * predicted.H_block.transpose();
     const Eigen::MatrixXd S = predicted.H_robot * P_robot * predicted.H_robot.transpose() + cross +
                               cross.transpose() +
-                              predicted.H_block * P_block * predicted.H_block.transpose() + m.R;
+                              predicted.H_block * marginal.P * predicted.H_block.transpose() + m.R;
     const Eigen::VectorXd nu = innovationOf(m, predicted.z);
     const Eigen::LLT<Eigen::MatrixXd> llt(S);
     return llt.info() != Eigen::Success || nu.dot(llt.solve(nu)) <= bound;

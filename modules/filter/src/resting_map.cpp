@@ -40,6 +40,16 @@ std::vector<Eigen::Index> indicesOf(const std::vector<Block>& blocks) {
   return indices;
 }
 
+/// The parameters of the state at the last exchange by which the state changed: the robot's and
+/// those measured. Where Psi is zero, Phi says only where a parameter went: it is that of the
+/// identity, but for blocks that were removed or converted.
+std::vector<Eigen::Index> supportOf(const Transfer& transfer) {
+  std::vector<Eigen::Index> support;
+  for (Eigen::Index i = 0; i < transfer.Psi.rows(); ++i)
+    if (i < 3 || transfer.Psi(i, i) != 0.0) support.push_back(i);
+  return support;
+}
+
 /// Psi = F F^T.
 Eigen::MatrixXd squareRoot(const Eigen::MatrixXd& Psi) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(Psi);
@@ -126,15 +136,21 @@ double RestingMap::covarianceAt(Eigen::Index row, Eigen::Index column) const {
                                .dot(weights_.tail(owed).transpose());
 }
 
-Eigen::MatrixXd RestingMap::covariance(const Block& block) const {
-  return Eigen::MatrixXd::NullaryExpr(
+RestingMap::Marginal RestingMap::marginal(const Block& block, const State& state) const {
+  Marginal marginal;
+  marginal.y = moved(block, C_.middleRows(block.offset, block.size()) * state.transfer->theta);
+  marginal.P = Eigen::MatrixXd::NullaryExpr(
       block.size(), block.size(), [&](Eigen::Index row, Eigen::Index column) {
         return covarianceAt(block.offset + row, block.offset + column);
       });
-}
-
-BlockVector RestingMap::value(const Block& block, const State& state) const {
-  return moved(block, C_.middleRows(block.offset, block.size()) * state.transfer->theta);
+  marginal.P_robot =
+      state.transfer->Phi.topRows<3>() * C_.middleRows(block.offset, block.size()).transpose();
+  if (!invariant_) return marginal;
+  const Eigen::VectorXd g = turnOfWay(block, marginal.y);
+  const Eigen::VectorXd w = marginal.P_robot.row(2).transpose() + 0.5 * state.P(2, 2) * g;
+  marginal.P += g * w.transpose() + w * g.transpose();
+  marginal.P_robot += state.P.block<3, 1>(0, 2) * g.transpose();
+  return marginal;
 }
 
 double RestingMap::largestMove(const State& state) const {
@@ -145,18 +161,13 @@ double RestingMap::largestMove(const State& state) const {
   return length(1) + length(2);
 }
 
-Eigen::MatrixXd RestingMap::covarianceWithRobot(const Block& block, const State& state) const {
-  return state.transfer->Phi.topRows<3>() * C_.middleRows(block.offset, block.size()).transpose();
-}
-
-Eigen::VectorXd RestingMap::worldTurn(const Eigen::VectorXd& x) const {
-  Eigen::VectorXd G = Eigen::VectorXd::Zero(x.size());
-  for (const Block& block : blocks_) {
-    if (layoutOf(block.block_kind).point < 0) continue;
-    G(block.offset) = -x(block.offset + 1);
-    G(block.offset + 1) = x(block.offset);
-  }
-  return G;
+BlockVector RestingMap::turnOfWay(const Block& block, const BlockVector& y) const {
+  BlockVector g = BlockVector::Zero(block.size());
+  if (layoutOf(block.block_kind).point < 0) return g;
+  const BlockVector way = y - x_transported_.segment(block.offset, block.size());
+  g(0) = -way(1);
+  g(1) = way(0);
+  return g;
 }
 
 void RestingMap::addOwed(const Eigen::MatrixXd& D, const Eigen::VectorXd& weights) {
@@ -231,13 +242,13 @@ Eigen::VectorXd RestingMap::variances() const {
   return variances;
 }
 
-Eigen::MatrixXd RestingMap::judged() const {
+Eigen::MatrixXd RestingMap::judged(const std::vector<Eigen::Index>& columns) const {
   const std::size_t stride =
       std::max<std::size_t>(1, (blocks_.size() + kBlocksJudged - 1) / kBlocksJudged);
   std::vector<Eigen::Index> rows;
   for (std::size_t i = 0; i < blocks_.size(); i += stride)
     for (int k = 0; k < blocks_[i].size(); ++k) rows.push_back(blocks_[i].offset + k);
-  const Eigen::MatrixXd C = C_(rows, Eigen::all);
+  const Eigen::MatrixXd C = C_(rows, columns);
   const auto inverse = [](double variance) {
     return variance > 0.0 ? 1.0 / std::sqrt(variance) : 0.0;
   };
@@ -249,26 +260,23 @@ void RestingMap::exchange(State& state, const std::vector<LandmarkId>& active, b
   const auto isActive = [&](const Block& block) {
     return std::binary_search(active.begin(), active.end(), block.id);
   };
+  invariant_ = invariant;
   // The resting part up to now: values, covariance X with the state, what is owed to its own.
   Eigen::MatrixXd X = Eigen::MatrixXd::Zero(x_.size(), state.x.size());
   if (state.transfer) {
     const Transfer& transfer = *state.transfer;
-    X.noalias() = C_ * transfer.Phi.transpose();
-    const Eigen::VectorXd now = values(state);
-    const Eigen::VectorXd g = worldTurn(now) - worldTurn(x_);
-    x_ = now;
-    const Eigen::MatrixXd D =
-        C_ * lowRankFactor(negligible > 0.0 ? judged() : C_, transfer.Psi, negligible);
-    addOwed(D, Eigen::VectorXd::Constant(D.cols(), -1.0));
-    if (invariant) {
-      // M = I + g e^T for the resting points: P + g w^T + w g^T with w = h + v/2 g, as a
-      // difference of two squares.
-      const Eigen::VectorXd w = X.col(2) + 0.5 * state.P(2, 2) * g;
-      Eigen::MatrixXd squares(g.size(), 2);
-      squares << g + w, g - w;
-      addOwed(squares, Eigen::Vector2d(0.5, -0.5));
-      X.noalias() += g * state.P.row(2);
+    const std::vector<Eigen::Index> support = supportOf(transfer);
+    const Eigen::MatrixXd C = C_(Eigen::all, support);
+    X.noalias() = C * transfer.Phi(Eigen::all, support).transpose();
+    for (Eigen::Index j = 3; j < transfer.Phi.cols(); ++j) {
+      if (transfer.Psi(j, j) != 0.0) continue;
+      for (Eigen::Index i = 0; i < transfer.Phi.rows(); ++i)
+        if (transfer.Phi(i, j) != 0.0) X.col(i) += transfer.Phi(i, j) * C_.col(j);
     }
+    x_ = values(state);
+    const Eigen::MatrixXd D = C * lowRankFactor(negligible > 0.0 ? judged(support) : C,
+                                                transfer.Psi(support, support), negligible);
+    addOwed(D, Eigen::VectorXd::Constant(D.cols(), -1.0));
   }
 
   std::vector<Block> kept, leaving, entering, resting;
@@ -281,6 +289,19 @@ void RestingMap::exchange(State& state, const std::vector<LandmarkId>& active, b
   const std::vector<Eigen::Index> in = indicesOf(entering);
   if (resting.empty()) settleDebts();
   Eigen::MatrixXd E = columnsNow(in);
+  if (invariant) {
+    // M = I + g e^T for the points that enter, by their whole way since they came to rest.
+    Eigen::VectorXd g = Eigen::VectorXd::Zero(x_.size());
+    for (const Block& block : entering)
+      g.segment(block.offset, block.size()) =
+          turnOfWay(block, x_.segment(block.offset, block.size()));
+    const Eigen::VectorXd g_in = g(in);
+    const Eigen::VectorXd w = X.col(2) + 0.5 * state.P(2, 2) * g;
+    const Eigen::VectorXd w_in = w(in);
+    E += w * g_in.transpose();
+    E(in, Eigen::all) += g_in * w_in.transpose();
+    X(in, Eigen::all) += g_in * state.P.row(2);
+  }
 
   // What leaves takes its slots. Nothing is owed to what is written now, nor to what leaves here.
   const Eigen::Index former_size = x_.size();
@@ -296,6 +317,7 @@ void RestingMap::exchange(State& state, const std::vector<LandmarkId>& active, b
     matrix.bottomRows(size - former_size).setZero();
   };
   x_.conservativeResize(size);
+  x_transported_.conservativeResize(size);
   P_.grow(size);
   growRows(X);
   growRows(E);
@@ -304,6 +326,7 @@ void RestingMap::exchange(State& state, const std::vector<LandmarkId>& active, b
   const std::vector<Eigen::Index> out_slots =
       indicesOf({resting.end() - static_cast<std::ptrdiff_t>(leaving.size()), resting.end()});
   x_(out_slots) = state.x(out);
+  x_transported_(out_slots) = state.x(out);
   owed_(out_slots, Eigen::all).setZero();
   owed_(in, Eigen::all).setZero();
   X(out_slots, Eigen::all) = state.P(out, Eigen::all);

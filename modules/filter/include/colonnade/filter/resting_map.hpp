@@ -28,23 +28,27 @@ class RestingMap {
   Block* find(LandmarkId id);
   const Block* find(LandmarkId id) const;
 
-  /// The values of a resting block as of now, and of the last exchange.
-  BlockVector value(const Block& block, const State& state) const;
+  /// A resting block as of now: its values, its covariance (as of the last exchange: since then it
+  /// can only have lost) and that of the robot with it (3 x size).
+  struct Marginal {
+    BlockVector y;
+    Eigen::MatrixXd P;
+    Eigen::MatrixXd P_robot;
+  };
+  Marginal marginal(const Block& block, const State& state) const;
+  /// The values of a resting block as of the last exchange.
   BlockVector valueThen(const Block& block) const { return x_.segment(block.offset, block.size()); }
   /// No resting point has moved farther since the last exchange than so many of its deviations:
   /// |C theta| <= sigma sqrt(theta^T P theta), P the covariance of the state at that exchange.
   double largestMove(const State& state) const;
   /// The variance of the first two parameters of a block together, as of the last exchange.
   double spread2(const Block& block) const { return variance_.segment<2>(block.offset).sum(); }
-  /// Covariance of a resting block as of the last exchange: since then it can only have lost.
-  Eigen::MatrixXd covariance(const Block& block) const;
-  /// Covariance of the robot with a resting block as of now (3 x size).
-  Eigen::MatrixXd covarianceWithRobot(const Block& block, const State& state) const;
 
   /// Brings the resting part up to date and exchanges blocks: afterwards the state holds the blocks
   /// of `active` (ascending; all of them known here or there), and the others rest. Of what the
-  /// resting blocks gained, parts are left out for good that lower no judged variance (of blocks evenly
-  /// spread) by more than a share of `negligible`: the covariance of all stays the true one plus something positive semidefinite.
+  /// resting blocks gained, parts are left out for good that lower no judged variance (of blocks
+  /// evenly spread) by more than a share of `negligible`: the covariance of all stays the true one
+  /// plus something positive semidefinite.
   void exchange(State& state, const std::vector<LandmarkId>& active, bool invariant,
                 double negligible);
   /// A part of the work the exchanges left.
@@ -67,17 +71,20 @@ class RestingMap {
   /// Columns of the covariance of all that rests, debts paid.
   Eigen::MatrixXd columnsNow(const std::vector<Eigen::Index>& columns) const;
   /// Rows of C_ in units of their deviations: a part of them, evenly spread.
-  Eigen::MatrixXd judged() const;
-  Eigen::VectorXd worldTurn(const Eigen::VectorXd& x) const;
+  Eigen::MatrixXd judged(const std::vector<Eigen::Index>& columns) const;
+  /// How far the block's own turn G has gone at `y` since its covariance was last transported.
+  BlockVector turnOfWay(const Block& block, const BlockVector& y) const;
 
   std::vector<Block> blocks_;         ///< those that rest; offset: that of the slot
   std::map<LandmarkId, Slot> slots_;  ///< once given, a block's for good
   Eigen::VectorXd x_;
-  SymmetricPanels P_;         ///< rows of slots whose block does not rest mean nothing
-  Eigen::MatrixXd C_;         ///< covariance with the state at the last exchange; see Transfer
-  Eigen::MatrixXd P_state_;   ///< covariance of the state at the last exchange
-  Eigen::VectorXd variance_;  ///< of every resting parameter at the last exchange
-  Eigen::MatrixXd owed_;      ///< D: P_ still lacks D diag(weights) D^T ...
+  Eigen::VectorXd x_transported_;  ///< what the covariance was last transported to
+  bool invariant_ = false;         ///< whether it is transported at all
+  SymmetricPanels P_;              ///< rows of slots whose block does not rest mean nothing
+  Eigen::MatrixXd C_;              ///< covariance with the state at the last exchange; see Transfer
+  Eigen::MatrixXd P_state_;        ///< covariance of the state at the last exchange
+  Eigen::VectorXd variance_;       ///< of every resting parameter at the last exchange
+  Eigen::MatrixXd owed_;           ///< D: P_ still lacks D diag(weights) D^T ...
   Eigen::VectorXd weights_;
   Eigen::Index paying_ = 0;       ///< ... but for so many of the first columns
   Eigen::Index panels_done_ = 0;  ///< in so many of the first panels
