@@ -6,8 +6,8 @@
 #include <map>
 #include <vector>
 
+#include "colonnade/filter/resting_covariance.hpp"
 #include "colonnade/filter/state.hpp"
-#include "colonnade/filter/symmetric_panels.hpp"
 
 namespace colonnade {
 
@@ -18,9 +18,7 @@ namespace colonnade {
 /// points are transported once, by the whole way they moved, in place of once for each correction:
 /// the direction nobody observes is kept just as well, the numbers differ in second order.
 ///
-/// The covariance of resting with resting blocks is the one thing that is large. Its change since
-/// an exchange is of low rank and is owed as such; what several exchanges owe is paid together, a
-/// few panels at a time, by workOff().
+/// The covariance of resting with resting blocks follows in its own time: see RestingCovariance.
 class RestingMap {
  public:
   bool empty() const { return blocks_.empty(); }
@@ -52,7 +50,7 @@ class RestingMap {
   void exchange(State& state, const std::vector<LandmarkId>& active, bool invariant,
                 double negligible);
   /// A part of the work the exchanges left.
-  void workOff();
+  void workOff() { P_.workOff(); }
   void remove(LandmarkId id);
 
  private:
@@ -60,18 +58,14 @@ class RestingMap {
     Eigen::Index offset = 0;
     Eigen::Index size = 0;
   };
-  void addOwed(const Eigen::MatrixXd& D, const Eigen::VectorXd& weights);
-  void pay(Eigen::Index panel);
-  void closeAccount();
-  void settleDebts();
-  Eigen::VectorXd values(const State& state) const;
+  class Passage;
+  /// Brings values, variances and what is owed up to date.
+  void follow(const Passage& passage, double negligible);
+  /// Slots for blocks that come to rest; their offsets become those.
+  void giveSlots(std::vector<Block>& leaving);
   BlockVector moved(const Block& block, const Eigen::Ref<const Eigen::MatrixX3d>& step) const;
-  Eigen::VectorXd variances() const;
-  double covarianceAt(Eigen::Index row, Eigen::Index column) const;
-  /// Columns of the covariance of all that rests, debts paid.
-  Eigen::MatrixXd columnsNow(const std::vector<Eigen::Index>& columns) const;
-  /// Rows of C_ in units of their deviations: a part of them, evenly spread.
-  Eigen::MatrixXd judged(const std::vector<Eigen::Index>& columns) const;
+  /// The rows by which it is judged what is negligible: all, or those of blocks evenly spread.
+  std::vector<Eigen::Index> judged(double negligible) const;
   /// How far the block's own turn G has gone at `y` since its covariance was last transported.
   BlockVector turnOfWay(const Block& block, const BlockVector& y) const;
 
@@ -80,14 +74,11 @@ class RestingMap {
   Eigen::VectorXd x_;
   Eigen::VectorXd x_transported_;  ///< what the covariance was last transported to
   bool invariant_ = false;         ///< whether it is transported at all
-  SymmetricPanels P_;              ///< rows of slots whose block does not rest mean nothing
-  Eigen::MatrixXd C_;              ///< covariance with the state at the last exchange; see Transfer
-  Eigen::MatrixXd P_state_;        ///< covariance of the state at the last exchange
-  Eigen::VectorXd variance_;       ///< of every resting parameter at the last exchange
-  Eigen::MatrixXd owed_;           ///< D: P_ still lacks D diag(weights) D^T ...
-  Eigen::VectorXd weights_;
-  Eigen::Index paying_ = 0;       ///< ... but for so many of the first columns
-  Eigen::Index panels_done_ = 0;  ///< in so many of the first panels
+  std::vector<bool> rests_;        ///< rows of other slots mean nothing, and are zero in C_
+  RestingCovariance P_;
+  RowPanels C_;               ///< covariance with the state at the last exchange; see Transfer
+  Eigen::MatrixXd P_state_;   ///< covariance of the state at the last exchange
+  Eigen::VectorXd variance_;  ///< of every resting parameter at the last exchange
 };
 
 }  // namespace colonnade
