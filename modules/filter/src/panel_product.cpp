@@ -9,57 +9,74 @@
 namespace colonnade {
 namespace {
 
-/// Four doubles: one AVX register, or two of SSE2.
+/// Four doubles are one AVX register, or two of SSE2; eight are one of AVX-512.
 using Quad = double __attribute__((vector_size(32)));
+using Octet = double __attribute__((vector_size(64)));
 
-inline __attribute__((always_inline)) void load(Quad& quad, const double* from) {
-  std::memcpy(&quad, from, sizeof quad);
-}
-
-/// Adds `kColumns` columns at a time, sixteen rows of each in registers.
-template <int kColumns>
+/// Adds `kColumns` columns, so many rows of each in registers as `kVectors` vectors hold.
+template <class Vector, int kColumns, int kVectors>
 inline __attribute__((always_inline)) void addColumns(double* C, const double* A, const double* B,
                                                       std::ptrdiff_t stride_b,
                                                       std::ptrdiff_t depth) {
-  for (std::ptrdiff_t half = 0; half < kPanelRows; half += 16) {
-    Quad sum[kColumns][4] = {};
+  constexpr std::ptrdiff_t kWidth = sizeof(Vector) / sizeof(double);
+  for (std::ptrdiff_t row = 0; row < kPanelRows; row += kVectors * kWidth) {
+    Vector sum[kColumns][kVectors] = {};
     for (std::ptrdiff_t k = 0; k < depth; ++k) {
-      Quad a[4];
+      Vector a[kVectors];
 #pragma GCC unroll 4
-      for (int i = 0; i < 4; ++i) load(a[i], A + k * kPanelRows + half + 4 * i);
+      for (int i = 0; i < kVectors; ++i)
+        std::memcpy(&a[i], A + k * kPanelRows + row + kWidth * i, sizeof(Vector));
 #pragma GCC unroll 4
       for (int c = 0; c < kColumns; ++c)
 #pragma GCC unroll 4
-        for (int i = 0; i < 4; ++i) sum[c][i] += a[i] * B[k * stride_b + c];
+        for (int i = 0; i < kVectors; ++i) sum[c][i] += a[i] * B[k * stride_b + c];
     }
 #pragma GCC unroll 4
     for (int c = 0; c < kColumns; ++c)
 #pragma GCC unroll 4
-      for (int i = 0; i < 4; ++i) {
-        double* to = C + c * kPanelRows + half + 4 * i;
-        Quad old;
-        load(old, to);
+      for (int i = 0; i < kVectors; ++i) {
+        double* to = C + c * kPanelRows + row + kWidth * i;
+        Vector old;
+        std::memcpy(&old, to, sizeof old);
         old += sum[c][i];
         std::memcpy(to, &old, sizeof old);
       }
   }
 }
 
+template <class Vector, int kVectors>
 inline __attribute__((always_inline)) void add(double* C, std::ptrdiff_t columns, const double* A,
                                                const double* B, std::ptrdiff_t stride_b,
                                                std::ptrdiff_t depth) {
   std::ptrdiff_t column = 0;
-  for (; column + 2 <= columns; column += 2)
-    addColumns<2>(C + column * kPanelRows, A, B + column, stride_b, depth);
-  if (column < columns) addColumns<1>(C + column * kPanelRows, A, B + column, stride_b, depth);
+  for (; column + 4 <= columns; column += 4)
+    addColumns<Vector, 4, kVectors>(C + column * kPanelRows, A, B + column, stride_b, depth);
+  for (; column < columns; ++column)
+    addColumns<Vector, 1, kVectors>(C + column * kPanelRows, A, B + column, stride_b, depth);
+}
+
+#ifdef COLONNADE_WIDEST_VECTORS
+COLONNADE_WIDEST_VECTORS
+void addInWidestVectors(double* C, std::ptrdiff_t columns, const double* A, const double* B,
+                        std::ptrdiff_t stride_b, std::ptrdiff_t depth) {
+  add<Octet, 4>(C, columns, A, B, stride_b, depth);
+}
+#endif
+
+COLONNADE_VECTOR_KERNEL
+void addInVectors(double* C, std::ptrdiff_t columns, const double* A, const double* B,
+                  std::ptrdiff_t stride_b, std::ptrdiff_t depth) {
+  add<Quad, 2>(C, columns, A, B, stride_b, depth);
 }
 
 }  // namespace
 
-COLONNADE_VECTOR_KERNEL
 void addPanelProduct(double* C, std::ptrdiff_t columns, const double* A, const double* B,
                      std::ptrdiff_t stride_b, std::ptrdiff_t depth) {
-  add(C, columns, A, B, stride_b, depth);
+#ifdef COLONNADE_WIDEST_VECTORS
+  if (hasWidestVectors()) return addInWidestVectors(C, columns, A, B, stride_b, depth);
+#endif
+  addInVectors(C, columns, A, B, stride_b, depth);
 }
 
 }  // namespace colonnade

@@ -2,20 +2,35 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "colonnade/filter/row_panels.hpp"
 
+#include <algorithm>
+
 namespace colonnade {
 
 void RowPanels::growRows(Eigen::Index rows) {
-  while (panels() * kRows < rows) panels_.emplace_back(static_cast<std::size_t>(kRows * cols_));
+  panels_ = std::max(panels_, (rows + kRows - 1) / kRows);
+  data_.resize(static_cast<std::size_t>(panels_ * capacity_ * kRows));
 }
 
 void RowPanels::setCols(Eigen::Index cols) {
+  if (cols > capacity_) {
+    RowPanels larger;
+    larger.capacity_ = std::max(cols, 2 * capacity_);
+    larger.growRows(panels_ * kRows);
+    for (Eigen::Index panel = 0; panel < panels_; ++panel)
+      std::copy_n(column(panel, 0), cols_ * kRows, larger.column(panel, 0));
+    larger.cols_ = cols;
+    *this = std::move(larger);
+    return;
+  }
+  for (Eigen::Index panel = 0; panel < panels_ && cols > cols_; ++panel)
+    std::fill_n(column(panel, cols_), (cols - cols_) * kRows, 0.0);
   cols_ = cols;
-  for (auto& panel : panels_) panel.resize(static_cast<std::size_t>(kRows * cols));
 }
 
 void RowPanels::dropFirstCols(Eigen::Index cols) {
   cols_ -= cols;
-  for (auto& panel : panels_) panel.erase(panel.begin(), panel.begin() + kRows * cols);
+  for (Eigen::Index panel = 0; panel < panels_ && cols > 0; ++panel)
+    std::copy_n(column(panel, cols), cols_ * kRows, column(panel, 0));
 }
 
 Eigen::MatrixXd RowPanels::rows(std::span<const Eigen::Index> rows) const {

@@ -9,8 +9,11 @@
 namespace colonnade {
 
 void SymmetricPanels::grow(Eigen::Index size) {
-  while (panels() * kRows < size)
-    panels_.emplace_back(static_cast<std::size_t>(kRows * kRows * (panels() + 1)));
+  panels_ = std::max(panels_, (size + kRows - 1) / kRows);
+  while (static_cast<Eigen::Index>(groups_.size()) * kTogether < panels_) {
+    const std::size_t side = (groups_.size() + 1) * static_cast<std::size_t>(kTogether * kRows);
+    groups_.emplace_back(side * static_cast<std::size_t>(kTogether * kRows));
+  }
 }
 
 double SymmetricPanels::operator()(Eigen::Index row, Eigen::Index column) const {

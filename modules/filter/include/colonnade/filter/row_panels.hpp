@@ -6,10 +6,12 @@
 #include <span>
 #include <vector>
 
+#include "colonnade/base/memory.hpp"
+
 namespace colonnade {
 
 /// A tall matrix in panels of a few rows, each by columns without gaps: what is done panel by panel
-/// stays in the fastest memory, and it grows in both directions without being copied.
+/// stays in the fastest memory. It has room to grow in both directions.
 class RowPanels {
  public:
   static constexpr Eigen::Index kRows = 32;
@@ -17,7 +19,7 @@ class RowPanels {
   using ConstPanel = Eigen::Map<const Eigen::Matrix<double, kRows, Eigen::Dynamic>>;
 
   static Eigen::Index panelOf(Eigen::Index row) { return row / kRows; }
-  Eigen::Index panels() const { return static_cast<Eigen::Index>(panels_.size()); }
+  Eigen::Index panels() const { return panels_; }
   Eigen::Index cols() const { return cols_; }
   /// Room for so many rows; new ones, up to the end of their panel, are zero.
   void growRows(Eigen::Index rows);
@@ -29,10 +31,10 @@ class RowPanels {
   Panel panel(Eigen::Index panel) { return {column(panel, 0), kRows, cols_}; }
   ConstPanel panel(Eigen::Index panel) const { return {column(panel, 0), kRows, cols_}; }
   double* column(Eigen::Index panel, Eigen::Index column) {
-    return panels_[static_cast<std::size_t>(panel)].data() + column * kRows;
+    return data_.data() + (panel * capacity_ + column) * kRows;
   }
   const double* column(Eigen::Index panel, Eigen::Index column) const {
-    return panels_[static_cast<std::size_t>(panel)].data() + column * kRows;
+    return data_.data() + (panel * capacity_ + column) * kRows;
   }
   auto row(Eigen::Index row) { return panel(panelOf(row)).row(row % kRows); }
   auto row(Eigen::Index row) const { return panel(panelOf(row)).row(row % kRows); }
@@ -41,8 +43,10 @@ class RowPanels {
                        std::span<const Eigen::Index> columns) const;
 
  private:
+  Eigen::Index panels_ = 0;
   Eigen::Index cols_ = 0;
-  std::vector<std::vector<double>> panels_;
+  Eigen::Index capacity_ = 0;  ///< columns a panel has room for
+  std::vector<double, LargeAllocator<double>> data_;
 };
 
 }  // namespace colonnade

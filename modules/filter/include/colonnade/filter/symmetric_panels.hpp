@@ -4,8 +4,10 @@
 
 #include <Eigen/Core>
 #include <span>
+#include <utility>
 #include <vector>
 
+#include "colonnade/base/memory.hpp"
 #include "colonnade/filter/row_panels.hpp"
 
 namespace colonnade {
@@ -15,7 +17,7 @@ namespace colonnade {
 class SymmetricPanels {
  public:
   static constexpr Eigen::Index kRows = RowPanels::kRows;
-  Eigen::Index panels() const { return static_cast<Eigen::Index>(panels_.size()); }
+  Eigen::Index panels() const { return panels_; }
   /// Room for so many rows; new rows and columns, up to the end of their panel, are zero.
   void grow(Eigen::Index size);
 
@@ -28,13 +30,19 @@ class SymmetricPanels {
   void subtractSquare(Eigen::Index panel, const RowPanels& D, Eigen::Index cols);
 
  private:
-  double* tile(Eigen::Index panel, Eigen::Index column) {
-    return panels_[static_cast<std::size_t>(panel)].data() + column * kRows;
-  }
+  /// So many panels lie in memory together, each as wide as the last of them.
+  static constexpr Eigen::Index kTogether = 4;
   const double* tile(Eigen::Index panel, Eigen::Index column) const {
-    return panels_[static_cast<std::size_t>(panel)].data() + column * kRows;
+    const Eigen::Index group = panel / kTogether;
+    const Eigen::Index width = (group + 1) * kTogether * kRows;
+    return groups_[static_cast<std::size_t>(group)].data() +
+           (panel % kTogether * width + column) * kRows;
   }
-  std::vector<std::vector<double>> panels_;  ///< kRows x (kRows (panel + 1)), by columns
+  double* tile(Eigen::Index panel, Eigen::Index column) {
+    return const_cast<double*>(std::as_const(*this).tile(panel, column));
+  }
+  Eigen::Index panels_ = 0;
+  std::vector<std::vector<double, LargeAllocator<double>>> groups_;
 };
 
 }  // namespace colonnade
