@@ -4,6 +4,8 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "panel_product.hpp"
+
 namespace colonnade {
 namespace {
 
@@ -40,13 +42,14 @@ Eigen::Index negligibleColumns(const Eigen::MatrixXd& parts, double negligible) 
 Eigen::MatrixXd lowRankFactor(const Eigen::MatrixXd& C_judged, const Eigen::MatrixXd& Psi,
                               double negligible) {
   const Eigen::MatrixXd F = squareRoot(Psi);
-  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(Psi.rows(), Psi.rows());
-  gram.selfadjointView<Eigen::Lower>().rankUpdate(C_judged.transpose());
-  const Eigen::MatrixXd outer = F.transpose() * (gram.selfadjointView<Eigen::Lower>() * F);
+  const Eigen::MatrixXd rows = C_judged.transpose();
+  const Eigen::MatrixXd outer = F.transpose() * productOfRows(rows, rows) * F;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> spectrum(outer);
   Eigen::MatrixXd A = F * spectrum.eigenvectors().rightCols(rankOf(spectrum.eigenvalues()));
   if (negligible <= 0.0) return A;
-  return A.rightCols(A.cols() - negligibleColumns(C_judged * A, negligible)).eval();
+  return A
+      .rightCols(A.cols() - negligibleColumns(productOfRows(C_judged, A.transpose()), negligible))
+      .eval();
 }
 
 }  // namespace colonnade

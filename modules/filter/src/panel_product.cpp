@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "panel_product.hpp"
 
+#include <algorithm>
 #include <cstring>
 
 #include "colonnade/base/vector_kernel.hpp"
@@ -77,6 +78,21 @@ void addPanelProduct(double* C, std::ptrdiff_t columns, const double* A, const d
   if (hasWidestVectors()) return addInWidestVectors(C, columns, A, B, stride_b, depth);
 #endif
   addInVectors(C, columns, A, B, stride_b, depth);
+}
+
+Eigen::MatrixXd productOfRows(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) {
+  Eigen::MatrixXd product(A.rows(), B.rows());
+  Eigen::Matrix<double, kPanelRows, Eigen::Dynamic> A_panel(kPanelRows, A.cols()),
+      panel(kPanelRows, B.rows());
+  for (Eigen::Index row = 0; row < A.rows(); row += kPanelRows) {
+    const Eigen::Index rows = std::min<Eigen::Index>(kPanelRows, A.rows() - row);
+    A_panel.bottomRows(kPanelRows - rows).setZero();
+    A_panel.topRows(rows) = A.middleRows(row, rows);
+    panel.setZero();
+    addPanelProduct(panel.data(), B.rows(), A_panel.data(), B.data(), B.rows(), A.cols());
+    product.middleRows(row, rows) = panel.topRows(rows);
+  }
+  return product;
 }
 
 }  // namespace colonnade

@@ -9,8 +9,6 @@
 namespace colonnade {
 namespace {
 
-/// So many columns of the debt are paid together: P is passed through once for all of them.
-constexpr Eigen::Index kColumnsTogether = 96;
 /// Over so many steps, unless more columns come meanwhile.
 constexpr Eigen::Index kStepsToWorkOff = 32;
 

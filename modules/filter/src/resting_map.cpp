@@ -192,6 +192,7 @@ Indices RestingMap::judged(double negligible) const {
   Indices rows;
   for (std::size_t i = 0; i < blocks_.size(); i += stride)
     for (int k = 0; k < blocks_[i].size(); ++k) rows.push_back(blocks_[i].offset + k);
+  std::sort(rows.begin(), rows.end());
   return rows;
 }
 

@@ -44,10 +44,17 @@ Eigen::MatrixXd RowPanels::rows(std::span<const Eigen::Index> rows,
                                 std::span<const Eigen::Index> columns) const {
   Eigen::MatrixXd gathered(static_cast<Eigen::Index>(rows.size()),
                            static_cast<Eigen::Index>(columns.size()));
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    for (std::size_t j = 0; j < columns.size(); ++j)
-      gathered(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
-          column(panelOf(rows[i]), columns[j])[rows[i] % kRows];
+  // Rows of one panel lie together in every column.
+  for (std::size_t i = 0, end = 0; i < rows.size(); i = end) {
+    const Eigen::Index panel = panelOf(rows[i]);
+    while (end < rows.size() && panelOf(rows[end]) == panel) ++end;
+    for (std::size_t j = 0; j < columns.size(); ++j) {
+      const double* from = column(panel, columns[j]);
+      for (std::size_t r = i; r < end; ++r)
+        gathered(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(j)) =
+            from[rows[r] % kRows];
+    }
+  }
   return gathered;
 }
 

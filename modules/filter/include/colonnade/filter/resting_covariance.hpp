@@ -49,9 +49,11 @@ class RestingCovariance {
   void closeAccount();
 
   SymmetricPanels P_;
-  RowPanels owed_;                ///< D
-  Eigen::Index paying_ = 0;       ///< so many of its first columns are paid ...
-  Eigen::Index panels_done_ = 0;  ///< ... in so many of the first panels
+  /// So many columns of the debt are paid together: P is passed through once for all of them.
+  static constexpr Eigen::Index kColumnsTogether = 96;
+  RowPanels owed_{kColumnsTogether + 32};  ///< D
+  Eigen::Index paying_ = 0;                ///< so many of its first columns are paid ...
+  Eigen::Index panels_done_ = 0;           ///< ... in so many of the first panels
 };
 
 }  // namespace colonnade

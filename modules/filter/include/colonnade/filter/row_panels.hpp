@@ -15,6 +15,9 @@ namespace colonnade {
 class RowPanels {
  public:
   static constexpr Eigen::Index kRows = 32;
+  RowPanels() = default;
+  /// With room for so many columns.
+  explicit RowPanels(Eigen::Index capacity) : capacity_(capacity) {}
   using Panel = Eigen::Map<Eigen::Matrix<double, kRows, Eigen::Dynamic>>;
   using ConstPanel = Eigen::Map<const Eigen::Matrix<double, kRows, Eigen::Dynamic>>;
 
