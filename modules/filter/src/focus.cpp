@@ -139,12 +139,23 @@ std::vector<LandmarkId> EkfSlam::restingNear(std::span<const Measurement> measur
     const Eigen::LLT<Eigen::MatrixXd> llt(S);
     return llt.info() != Eigen::Success || nu.dot(llt.solve(nu)) <= bound;
   };
+  // sqrt(a + b) <= sqrt(a) + sqrt(b): what is farther than this fails the first look as well.
+  const double first_look = std::sqrt(kFirstLook2);
+  std::vector<double> reaches;
+  for (const Sighting& sighting : seen) reaches.push_back(first_look * std::sqrt(sighting.spread2));
+  const auto isFar = [&](const Eigen::Vector2d& p, double own_reach, std::size_t i) {
+    const double reach = own_reach + reaches[i];
+    return (p - seen[i].p_world).squaredNorm() > reach * reach;
+  };
   for (const Block& block : resting_.blocks()) {
     if (block.block_kind != BlockKind::kPoint) continue;
-    if (std::any_of(seen.begin(), seen.end(), [&](const Sighting& sighting) {
-          return sighting.measurement->kind == block.landmark_kind && mayBe(block, sighting);
-        }))
-      near.push_back(block.id);
+    const Eigen::Vector2d p = resting_.valueThen(block);
+    const double own_reach = (move + first_look) * std::sqrt(resting_.spread2(block));
+    bool near_one = false;
+    for (std::size_t i = 0; i < seen.size() && !near_one; ++i)
+      near_one = !isFar(p, own_reach, i) && seen[i].measurement->kind == block.landmark_kind &&
+                 mayBe(block, seen[i]);
+    if (near_one) near.push_back(block.id);
   }
   return near;
 }

@@ -8,7 +8,8 @@ namespace colonnade {
 
 void RowPanels::growRows(Eigen::Index rows) {
   panels_ = std::max(panels_, (rows + kRows - 1) / kRows);
-  data_.resize(static_cast<std::size_t>(panels_ * capacity_ * kRows));
+  while (static_cast<Eigen::Index>(groups_.size()) * kTogether < panels_)
+    groups_.emplace_back(static_cast<std::size_t>(kTogether * capacity_ * kRows));
 }
 
 void RowPanels::setCols(Eigen::Index cols) {

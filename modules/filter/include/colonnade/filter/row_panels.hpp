@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "colonnade/base/memory.hpp"
@@ -11,7 +12,7 @@
 namespace colonnade {
 
 /// A tall matrix in panels of a few rows, each by columns without gaps: what is done panel by panel
-/// stays in the fastest memory. It has room to grow in both directions.
+/// stays in the fastest memory. New rows are added without copies, new columns while there is room.
 class RowPanels {
  public:
   static constexpr Eigen::Index kRows = 32;
@@ -33,11 +34,12 @@ class RowPanels {
 
   Panel panel(Eigen::Index panel) { return {column(panel, 0), kRows, cols_}; }
   ConstPanel panel(Eigen::Index panel) const { return {column(panel, 0), kRows, cols_}; }
-  double* column(Eigen::Index panel, Eigen::Index column) {
-    return data_.data() + (panel * capacity_ + column) * kRows;
-  }
   const double* column(Eigen::Index panel, Eigen::Index column) const {
-    return data_.data() + (panel * capacity_ + column) * kRows;
+    return groups_[static_cast<std::size_t>(panel / kTogether)].data() +
+           (panel % kTogether * capacity_ + column) * kRows;
+  }
+  double* column(Eigen::Index panel, Eigen::Index column) {
+    return const_cast<double*>(std::as_const(*this).column(panel, column));
   }
   auto row(Eigen::Index row) { return panel(panelOf(row)).row(row % kRows); }
   auto row(Eigen::Index row) const { return panel(panelOf(row)).row(row % kRows); }
@@ -46,10 +48,12 @@ class RowPanels {
                        std::span<const Eigen::Index> columns) const;
 
  private:
+  /// So many panels lie in memory together.
+  static constexpr Eigen::Index kTogether = 32;
   Eigen::Index panels_ = 0;
   Eigen::Index cols_ = 0;
   Eigen::Index capacity_ = 0;  ///< columns a panel has room for
-  std::vector<double, LargeAllocator<double>> data_;
+  std::vector<std::vector<double, LargeAllocator<double>>> groups_;
 };
 
 }  // namespace colonnade
