@@ -15,7 +15,7 @@ void RowPanels::growRows(Eigen::Index rows) {
 void RowPanels::setCols(Eigen::Index cols) {
   if (cols > capacity_) {
     RowPanels larger;
-    larger.capacity_ = std::max(cols, capacity_ + capacity_ / 2);
+    larger.capacity_ = cols + cols / 4;
     larger.growRows(panels_ * kRows);
     for (Eigen::Index panel = 0; panel < panels_; ++panel)
       std::copy_n(column(panel, 0), cols_ * kRows, larger.column(panel, 0));
