@@ -8,8 +8,15 @@ namespace colonnade {
 
 void RowPanels::growRows(Eigen::Index rows) {
   panels_ = std::max(panels_, (rows + kRows - 1) / kRows);
-  while (static_cast<Eigen::Index>(groups_.size()) * kTogether < panels_)
-    groups_.emplace_back(static_cast<std::size_t>(kTogether * capacity_ * kRows));
+  // Small maps do not pay for memory of large ones: the last group grows by a quarter.
+  constexpr Eigen::Index kQuarter = kTogether / 4;
+  for (Eigen::Index first = 0; first < panels_; first += kTogether) {
+    const auto group = static_cast<std::size_t>(first / kTogether);
+    const Eigen::Index needed = (panels_ - first + kQuarter - 1) / kQuarter * kQuarter;
+    const auto size = static_cast<std::size_t>(std::min(kTogether, needed) * capacity_ * kRows);
+    if (group == groups_.size()) groups_.emplace_back();
+    if (groups_[group].size() < size) groups_[group].resize(size);
+  }
 }
 
 void RowPanels::setCols(Eigen::Index cols) {
