@@ -15,7 +15,7 @@ namespace colonnade {
 /// nothing for it: what it learns stands in State::transfer, and follows when blocks are exchanged
 /// (compressed filter; Guivant and Nebot, IEEE T-RA 17(3), 2001). With the plain EKF an exchange
 /// leaves exactly what the full filter would have. With right-invariant transport the resting
-/// points are transported once, by the whole way they moved, in place of once for each correction:
+/// points are transported once, as they enter, in place of once for each correction:
 /// the direction nobody observes is kept just as well, the numbers differ in second order.
 ///
 /// The covariance of resting with resting blocks follows in its own time: see RestingCovariance.
