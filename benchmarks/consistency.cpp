@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // consistency [RUNS]: is the filter as sure of itself as it may be? Normalised NEES and NIS over
 // simulated runs through a hall, right-invariant filter beside plain EKF, with moderate and with
-// strong noise; white noise, so nothing is widened for errors that resemble each other.
+// strong noise; white noise, so nothing is widened for errors that resemble each other. Last what
+// it costs that landmarks rest, and that what they would gain is left out in part.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -29,6 +30,28 @@ void printRow(const char* name, const Consistency& c) {
   std::printf("%-10s", name);
   for (const double nees : c.nees) std::printf(" %6.2f", nees);
   std::printf(" | %6.2f %6.2f | %8.3f\n", c.nees_mean, c.nees_all, c.position_rmse_m);
+}
+
+/// Six active landmarks in the place of all: what the resting map does to the NEES.
+void studyResting(const char* title, const testing::HallNoise& noise, bool axes, int rounds,
+                  int runs) {
+  testing::ConsistencySetting setting;
+  setting.noise = noise;
+  setting.axes = axes;
+  setting.filter.gate_probability = kGate;
+  setting.runs = runs;
+  setting.steps = rounds * testing::BuildingHall::kStepsARound;
+  std::printf("\n%s: NEES as above, with six active landmarks and the rest resting\n", title);
+  setting.filter.active_landmarks = 0;
+  printRow("all active", studyConsistency(setting));
+  setting.filter.active_landmarks = 6;
+  for (const double gain : {0.0, FilterOptions{}.negligible_gain, 1e-2}) {
+    setting.filter.negligible_gain = gain;
+    char name[32];
+    std::snprintf(name, sizeof name, "gain %g", gain);
+    printRow(name, studyConsistency(setting));
+  }
+  printBand("each NEES", 3.0 * runs);
 }
 
 void printNis(const char* name, const Consistency& c) {
@@ -80,4 +103,6 @@ int main(int argc, char** argv) {
   study("Moderate noise", {}, true, 2, runs);
   study("Strong noise", testing::HallNoise{}.times(3.0), true, 2, runs);
   study("Strong noise, no building axis", testing::HallNoise{}.times(3.0), false, 4, runs);
+  studyResting("Moderate noise", {}, true, 4, runs);
+  studyResting("Strong noise, no building axis", testing::HallNoise{}.times(3.0), false, 4, runs);
 }

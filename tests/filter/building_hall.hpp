@@ -68,6 +68,9 @@ class BuildingHall {
           fresh);
     for (std::size_t i = 0; i < walls_.size(); ++i)
       see(filter, 200 + static_cast<int>(i), LandmarkKind::kFloorEdge, walls_[i], matches, fresh);
+    std::vector<LandmarkId> needed;
+    for (const Match& match : matches) needed.push_back(match.landmark);
+    filter.focus(needed);  // nothing rests with as many active landmarks as the default
     filter.update(matches);
     if (axes_) seeAxis(filter);
     found(filter, fresh);

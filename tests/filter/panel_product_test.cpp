@@ -41,5 +41,12 @@ TEST(PanelProduct, GivesTheBitsOfSumsTakenOneByOne) {
   }
 }
 
+TEST(PanelProduct, MultipliesRowsWhateverTheSizes) {
+  for (const int rows : {1, 32, 75}) {
+    const Eigen::MatrixXd A = Eigen::MatrixXd::Random(rows, 9), B = Eigen::MatrixXd::Random(7, 9);
+    EXPECT_LT((productOfRows(A, B) - A * B.transpose()).cwiseAbs().maxCoeff(), 1e-13);
+  }
+}
+
 }  // namespace
 }  // namespace colonnade

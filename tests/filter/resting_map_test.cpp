@@ -270,35 +270,5 @@ TEST(RestingMap, LeavesOutOnlyWhatIsNegligible) {
   EXPECT_LT(more.diagonal().maxCoeff(), kShare * 3.1);
 }
 
-TEST(SymmetricPanels, GrowsAndKeepsBothTriangles) {
-  SymmetricPanels panels;
-  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(75, 75);
-  std::mt19937 random(1);
-  std::normal_distribution<double> normal;
-  const auto draw = [&](Eigen::Index n) {
-    return Eigen::VectorXd(Eigen::VectorXd::NullaryExpr(n, [&] { return normal(random); }));
-  };
-  for (const Eigen::Index size : {Eigen::Index{20}, Eigen::Index{75}}) {
-    panels.grow(size);
-    for (const Eigen::Index index : {Eigen::Index{3}, size / 2, size - 1}) {
-      const Eigen::VectorXd values = draw(size);
-      panels.setRowAndColumn(index, values);
-      dense.col(index).head(size) = values;
-      dense.row(index).head(size) = values.transpose();
-    }
-  }
-  Eigen::MatrixXd D(75, 4);
-  for (int k = 0; k < 4; ++k) D.col(k) = draw(75);
-  const Eigen::Vector4d weights(-1.0, -1.0, 0.5, -0.5);
-  for (Eigen::Index panel = 0; panel < panels.panels(); ++panel)
-    panels.addToPanel(panel, D, weights);
-  dense += D * weights.asDiagonal() * D.transpose();
-  for (Eigen::Index i = 0; i < 75; ++i) {
-    EXPECT_LT((panels.column(i) - dense.col(i)).cwiseAbs().maxCoeff(), 1e-12);
-    EXPECT_NEAR(dense(i, 40), panels(i, 40), 1e-12);
-    EXPECT_EQ(panels(40, i), panels(i, 40));
-  }
-}
-
 }  // namespace
 }  // namespace colonnade

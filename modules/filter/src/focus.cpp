@@ -128,24 +128,34 @@ std::vector<LandmarkId> EkfSlam::restingNear(std::span<const Measurement> measur
     const double apart =
         (resting_.valueThen(block) - sighting.p_world).norm() - move * std::sqrt(spread2);
     if (apart > 0.0 && apart * apart > kFirstLook2 * (sighting.spread2 + spread2)) return false;
-    const BlockVector y = resting_.value(block, state_);
-    const Eigen::MatrixXd P_block = resting_.covariance(block);
-    const auto predicted = predictMeasurement(pose(), block.block_kind, y, m);
-    const Eigen::MatrixXd cross = predicted.H_robot * resting_.covarianceWithRobot(block, state_) *
-                                  predicted.H_block.transpose();
+    const RestingMap::Marginal marginal = resting_.marginal(block, state_);
+    const auto predicted = predictMeasurement(pose(), block.block_kind, marginal.y, m);
+    const Eigen::MatrixXd cross =
+        predicted.H_robot * marginal.P_robot * predicted.H_block.transpose();
     const Eigen::MatrixXd S = predicted.H_robot * P_robot * predicted.H_robot.transpose() + cross +
                               cross.transpose() +
-                              predicted.H_block * P_block * predicted.H_block.transpose() + m.R;
+                              predicted.H_block * marginal.P * predicted.H_block.transpose() + m.R;
     const Eigen::VectorXd nu = innovationOf(m, predicted.z);
     const Eigen::LLT<Eigen::MatrixXd> llt(S);
     return llt.info() != Eigen::Success || nu.dot(llt.solve(nu)) <= bound;
   };
+  // sqrt(a + b) <= sqrt(a) + sqrt(b): what is farther than this fails the first look as well.
+  const double first_look = std::sqrt(kFirstLook2);
+  std::vector<double> reaches;
+  for (const Sighting& sighting : seen) reaches.push_back(first_look * std::sqrt(sighting.spread2));
+  const auto isFar = [&](const Eigen::Vector2d& p, double own_reach, std::size_t i) {
+    const double reach = own_reach + reaches[i];
+    return (p - seen[i].p_world).squaredNorm() > reach * reach;
+  };
   for (const Block& block : resting_.blocks()) {
     if (block.block_kind != BlockKind::kPoint) continue;
-    if (std::any_of(seen.begin(), seen.end(), [&](const Sighting& sighting) {
-          return sighting.measurement->kind == block.landmark_kind && mayBe(block, sighting);
-        }))
-      near.push_back(block.id);
+    const Eigen::Vector2d p = resting_.valueThen(block);
+    const double own_reach = (move + first_look) * std::sqrt(resting_.spread2(block));
+    bool near_one = false;
+    for (std::size_t i = 0; i < seen.size() && !near_one; ++i)
+      near_one = !isFar(p, own_reach, i) && seen[i].measurement->kind == block.landmark_kind &&
+                 mayBe(block, seen[i]);
+    if (near_one) near.push_back(block.id);
   }
   return near;
 }

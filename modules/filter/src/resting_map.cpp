@@ -2,26 +2,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "colonnade/filter/resting_map.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <optional>
 
 #include "colonnade/base/angle.hpp"
+#include "low_rank.hpp"
+#include "panel_product.hpp"
 
 namespace colonnade {
 namespace {
 
-/// So many columns of the debt are paid together: P is passed through once for all of them.
-constexpr Eigen::Index kColumnsTogether = 32;
-/// Over so many steps, unless more columns come meanwhile.
-constexpr Eigen::Index kStepsToWorkOff = 32;
-/// Parts of a change of P smaller than this share of its largest are rounding.
-constexpr double kRounding = 1e-13;
+using Index = Eigen::Index;
+using Indices = std::vector<Index>;
+constexpr Index kRows = RowPanels::kRows;
+
 /// What is negligible is judged on at most so many resting blocks, evenly spread over all.
 constexpr std::size_t kBlocksJudged = 500;
 
 bool before(const Block& block, LandmarkId id) { return block.id < id; }
+bool older(const Block& a, const Block& b) { return a.id < b.id; }
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 /// Where the point, and where the direction of a block stands among its parameters; -1: none.
 struct Layout {
@@ -33,54 +36,89 @@ Layout layoutOf(BlockKind kind) {
 }
 
 /// The rows of the parameters of these blocks.
-std::vector<Eigen::Index> indicesOf(const std::vector<Block>& blocks) {
-  std::vector<Eigen::Index> indices;
+Indices indicesOf(const std::vector<Block>& blocks) {
+  Indices indices;
   for (const Block& block : blocks)
     for (int i = 0; i < block.size(); ++i) indices.push_back(block.offset + i);
   return indices;
 }
 
-/// Psi = F F^T.
-Eigen::MatrixXd squareRoot(const Eigen::MatrixXd& Psi) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(Psi);
-  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
-}
-
-/// How many of the last columns of a factor make up its square but for rounding; the columns are
-/// in the order of their squares.
-Eigen::Index rankOf(const Eigen::VectorXd& squares) {
-  const Eigen::Index size = squares.size();
-  if (size == 0 || !(squares(size - 1) > 0.0)) return 0;
-  return (squares.array() > kRounding * squares(size - 1)).count();
-}
-
-/// How many of the first columns of `parts` can go before the sum of their squares is more than
-/// `negligible` in a row.
-Eigen::Index negligibleColumns(const Eigen::MatrixXd& parts, double negligible) {
-  Eigen::VectorXd lost = Eigen::VectorXd::Zero(parts.rows());
-  for (Eigen::Index column = 0; column < parts.cols(); ++column) {
-    lost += parts.col(column).cwiseAbs2();
-    if (lost.maxCoeff() > negligible) return column;
+/// Rows with places in one order, visited panel by panel.
+class RowsByPanel {
+ public:
+  explicit RowsByPanel(const Indices& rows) {
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      rows_.emplace_back(rows[i], static_cast<Index>(i));
+    std::sort(rows_.begin(), rows_.end());
   }
-  return parts.cols();
-}
+  /// Calls visit(row within the panel, place) for those of this panel; panels in ascending order.
+  template <class Visit>
+  void of(Index panel, Visit visit) {
+    for (; next_ < rows_.size() && RowPanels::panelOf(rows_[next_].first) == panel; ++next_)
+      visit(rows_[next_].first % kRows, rows_[next_].second);
+  }
 
-/// A with D D^T = C Psi C^T for D = C A, of as few columns as it takes for the rows of `C_judged`:
-/// those of C, or a part of them in units of their deviations, of whose variances a share of
-/// `negligible` may be left out.
-Eigen::MatrixXd lowRankFactor(const Eigen::MatrixXd& C_judged, const Eigen::MatrixXd& Psi,
-                              double negligible) {
-  const Eigen::MatrixXd F = squareRoot(Psi);
-  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(Psi.rows(), Psi.rows());
-  gram.selfadjointView<Eigen::Lower>().rankUpdate(C_judged.transpose());
-  const Eigen::MatrixXd outer = F.transpose() * (gram.selfadjointView<Eigen::Lower>() * F);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> spectrum(outer);
-  Eigen::MatrixXd A = F * spectrum.eigenvectors().rightCols(rankOf(spectrum.eigenvalues()));
-  if (negligible <= 0.0) return A;
-  return A.rightCols(A.cols() - negligibleColumns(C_judged * A, negligible)).eval();
-}
+ private:
+  std::vector<std::pair<Index, Index>> rows_;
+  std::size_t next_ = 0;
+};
 
 }  // namespace
+
+/// What the state went through, as the resting part needs it. The parameters of the state at the
+/// last exchange by which it changed are the robot's and those measured: they are the support.
+/// Where Psi is zero, Phi says only where a parameter went: it is that of the identity, but for
+/// blocks that were removed or converted.
+class RestingMap::Passage {
+ public:
+  explicit Passage(const Transfer& transfer) {
+    for (Index j = 0; j < transfer.Psi.rows(); ++j) {
+      if (j < 3 || transfer.Psi(j, j) != 0.0) {
+        support_.push_back(j);
+        continue;
+      }
+      for (Index i = 0; i < transfer.Phi.rows(); ++i)
+        if (transfer.Phi(i, j) != 0.0) moves_.push_back({i, j, transfer.Phi(i, j)});
+    }
+    Phi_ = transfer.Phi(Eigen::all, support_);
+    Psi_ = transfer.Psi(support_, support_);
+    theta_ = transfer.theta(support_, Eigen::all).transpose();
+  }
+
+  const Indices& support() const { return support_; }
+  Index size() const { return Phi_.rows(); }
+  const Eigen::MatrixXd& Psi() const { return Psi_; }
+
+  /// The columns of the support of one panel of C.
+  void gather(const RowPanels& C, Index panel, Eigen::MatrixXd& C_support) const {
+    C_support = C.panel(panel)(Eigen::all, support_);
+  }
+  /// C theta.
+  Eigen::Matrix<double, kRows, 3> step(const Eigen::MatrixXd& C_support) const {
+    Eigen::Matrix<double, kRows, 3> step = Eigen::Matrix<double, kRows, 3>::Zero();
+    addPanelProduct(step.data(), 3, C_support.data(), theta_.data(), 3, theta_.cols());
+    return step;
+  }
+  /// X = C Phi^T, to be zero before.
+  void carry(const RowPanels& C, Index panel, Eigen::MatrixXd& C_support, double* X) const {
+    gather(C, panel, C_support);
+    addPanelProduct(X, size(), C_support.data(), Phi_.data(), size(), Phi_.cols());
+    RowPanels::Panel to(X, kRows, size());
+    for (const Move& move : moves_) to.col(move.to) += move.factor * C.panel(panel).col(move.from);
+  }
+
+ private:
+  struct Move {
+    Index to;
+    Index from;
+    double factor;
+  };
+  Indices support_;
+  Eigen::MatrixXd Phi_;
+  Eigen::MatrixXd Psi_;
+  Eigen::Matrix3Xd theta_;
+  std::vector<Move> moves_;
+};
 
 Block* RestingMap::find(LandmarkId id) {
   return const_cast<Block*>(static_cast<const RestingMap&>(*this).find(id));
@@ -92,17 +130,11 @@ const Block* RestingMap::find(LandmarkId id) const {
 }
 
 void RestingMap::remove(LandmarkId id) {
+  const auto slot = slots_.find(id);
+  if (slot == slots_.end()) return;
+  for (Index i = 0; i < slot->second.size; ++i) rests_[at(slot->second.offset + i)] = false;
   std::erase_if(blocks_, [&](const Block& block) { return block.id == id; });
-  slots_.erase(id);
-}
-
-Eigen::VectorXd RestingMap::values(const State& state) const {
-  const Eigen::MatrixX3d step = C_ * state.transfer->theta;
-  Eigen::VectorXd x = x_;
-  for (const Block& block : blocks_)
-    x.segment(block.offset, block.size()) =
-        moved(block, step.middleRows(block.offset, block.size()));
-  return x;
+  slots_.erase(slot);
 }
 
 BlockVector RestingMap::moved(const Block& block,
@@ -117,241 +149,215 @@ BlockVector RestingMap::moved(const Block& block,
   return y;
 }
 
-double RestingMap::covarianceAt(Eigen::Index row, Eigen::Index column) const {
-  const bool paid = SymmetricPanels::panelOf(std::max(row, column)) < panels_done_;
-  const Eigen::Index owed = owed_.cols() - (paid ? paying_ : 0);
-  return P_(row, column) + owed_.row(row)
-                               .tail(owed)
-                               .cwiseProduct(owed_.row(column).tail(owed))
-                               .dot(weights_.tail(owed).transpose());
-}
-
-Eigen::MatrixXd RestingMap::covariance(const Block& block) const {
-  return Eigen::MatrixXd::NullaryExpr(
-      block.size(), block.size(), [&](Eigen::Index row, Eigen::Index column) {
-        return covarianceAt(block.offset + row, block.offset + column);
-      });
-}
-
-BlockVector RestingMap::value(const Block& block, const State& state) const {
-  return moved(block, C_.middleRows(block.offset, block.size()) * state.transfer->theta);
+RestingMap::Marginal RestingMap::marginal(const Block& block, const State& state) const {
+  Indices rows;
+  for (int i = 0; i < block.size(); ++i) rows.push_back(block.offset + i);
+  const Eigen::MatrixXd C = C_.rows(rows);
+  Marginal marginal;
+  marginal.y = moved(block, C * state.transfer->theta);
+  marginal.P = Eigen::MatrixXd::NullaryExpr(
+      block.size(), block.size(),
+      [&](Index row, Index column) { return P_(block.offset + row, block.offset + column); });
+  marginal.P_robot = state.transfer->Phi.topRows<3>() * C.transpose();
+  if (!invariant_) return marginal;
+  const Eigen::VectorXd g = turnOfWay(block, marginal.y);
+  const Eigen::VectorXd w = marginal.P_robot.row(2).transpose() + 0.5 * state.P(2, 2) * g;
+  marginal.P += g * w.transpose() + w * g.transpose();
+  marginal.P_robot += state.P.block<3, 1>(0, 2) * g.transpose();
+  return marginal;
 }
 
 double RestingMap::largestMove(const State& state) const {
-  const auto length = [&](Eigen::Index column) {
+  const auto length = [&](Index column) {
     const auto theta = state.transfer->theta.col(column);
     return std::sqrt(std::max(0.0, theta.dot(P_state_ * theta)));
   };
   return length(1) + length(2);
 }
 
-Eigen::MatrixXd RestingMap::covarianceWithRobot(const Block& block, const State& state) const {
-  return state.transfer->Phi.topRows<3>() * C_.middleRows(block.offset, block.size()).transpose();
+BlockVector RestingMap::turnOfWay(const Block& block, const BlockVector& y) const {
+  BlockVector g = BlockVector::Zero(block.size());
+  if (layoutOf(block.block_kind).point < 0) return g;
+  const BlockVector way = y - x_transported_.segment(block.offset, block.size());
+  g(0) = -way(1);
+  g(1) = way(0);
+  return g;
 }
 
-Eigen::VectorXd RestingMap::worldTurn(const Eigen::VectorXd& x) const {
-  Eigen::VectorXd G = Eigen::VectorXd::Zero(x.size());
-  for (const Block& block : blocks_) {
-    if (layoutOf(block.block_kind).point < 0) continue;
-    G(block.offset) = -x(block.offset + 1);
-    G(block.offset + 1) = x(block.offset);
-  }
-  return G;
-}
-
-void RestingMap::addOwed(const Eigen::MatrixXd& D, const Eigen::VectorXd& weights) {
-  Eigen::MatrixXd all(D.rows(), owed_.cols() + D.cols());
-  if (owed_.cols() > 0) all.leftCols(owed_.cols()) = owed_;
-  all.rightCols(D.cols()) = D;
-  owed_ = std::move(all);
-  weights_.conservativeResize(owed_.cols());
-  weights_.tail(D.cols()) = weights;
-}
-
-void RestingMap::pay(Eigen::Index panel) {
-  P_.addToPanel(panel, owed_.leftCols(paying_), weights_.head(paying_));
-}
-
-void RestingMap::closeAccount() {
-  owed_ = owed_.rightCols(owed_.cols() - paying_).eval();
-  weights_ = weights_.tail(owed_.cols()).eval();
-  paying_ = panels_done_ = 0;
-}
-
-void RestingMap::settleDebts() {
-  for (; paying_ > 0 && panels_done_ < P_.panels(); ++panels_done_) pay(panels_done_);
-  closeAccount();
-  paying_ = owed_.cols();
-  for (; paying_ > 0 && panels_done_ < P_.panels(); ++panels_done_) pay(panels_done_);
-  closeAccount();
-}
-
-void RestingMap::workOff() {
-  if (paying_ == 0 && owed_.cols() >= kColumnsTogether) paying_ = owed_.cols();
-  if (paying_ == 0) return;
-  // Panel k has k + 1 times the work of the first.
-  const Eigen::Index panels = P_.panels();
-  const Eigen::Index times = 1 + (owed_.cols() - paying_) / kColumnsTogether;
-  Eigen::Index budget = times * panels * (panels + 1) / 2 / kStepsToWorkOff + 1;
-  for (; panels_done_ < panels && budget > 0; budget -= ++panels_done_) pay(panels_done_);
-  if (panels_done_ == panels) closeAccount();
-}
-
-Eigen::MatrixXd RestingMap::columnsNow(const std::vector<Eigen::Index>& columns) const {
-  Eigen::MatrixXd E(x_.size(), static_cast<Eigen::Index>(columns.size()));
-  std::vector<Eigen::Index> unpaid;  // columns of panels that are not paid yet
-  const Eigen::Index first_unpaid = std::min(x_.size(), SymmetricPanels::firstRow(panels_done_));
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    E.col(static_cast<Eigen::Index>(i)) = P_.column(columns[i]);
-    if (columns[i] < first_unpaid) continue;
-    unpaid.push_back(static_cast<Eigen::Index>(i));
-  }
-  if (owed_.cols() == 0 || columns.empty()) return E;
-  const Eigen::MatrixXd right = weights_.asDiagonal() * owed_(columns, Eigen::all).transpose();
-  const Eigen::Index unpaid_size = x_.size() - first_unpaid;
-  E.bottomRows(unpaid_size).noalias() += owed_.bottomRows(unpaid_size) * right;
-  const Eigen::Index fresh = owed_.cols() - paying_;
-  E.topRows(first_unpaid).noalias() +=
-      owed_.topRightCorner(first_unpaid, fresh) * right.bottomRows(fresh);
-  if (paying_ > 0 && first_unpaid > 0 && !unpaid.empty())
-    E.topRows(first_unpaid)(Eigen::all, unpaid) +=
-        owed_.topLeftCorner(first_unpaid, paying_) * right.topRows(paying_)(Eigen::all, unpaid);
-  return E;
-}
-
-Eigen::VectorXd RestingMap::variances() const {
-  Eigen::VectorXd variances = owed_.cwiseAbs2() * weights_;
-  for (Eigen::Index i = 0; i < variances.size(); ++i) {
-    const bool paid = SymmetricPanels::panelOf(i) < panels_done_;
-    if (paid && paying_ > 0)
-      variances(i) = covarianceAt(i, i);
-    else
-      variances(i) += P_(i, i);
-  }
-  return variances;
-}
-
-Eigen::MatrixXd RestingMap::judged() const {
+Indices RestingMap::judged(double negligible) const {
   const std::size_t stride =
-      std::max<std::size_t>(1, (blocks_.size() + kBlocksJudged - 1) / kBlocksJudged);
-  std::vector<Eigen::Index> rows;
+      negligible > 0.0
+          ? std::max<std::size_t>(1, (blocks_.size() + kBlocksJudged - 1) / kBlocksJudged)
+          : 1;
+  Indices rows;
   for (std::size_t i = 0; i < blocks_.size(); i += stride)
     for (int k = 0; k < blocks_[i].size(); ++k) rows.push_back(blocks_[i].offset + k);
-  const Eigen::MatrixXd C = C_(rows, Eigen::all);
-  const auto inverse = [](double variance) {
-    return variance > 0.0 ? 1.0 / std::sqrt(variance) : 0.0;
-  };
-  return variance_(rows).unaryExpr(inverse).asDiagonal() * C;
+  std::sort(rows.begin(), rows.end());
+  return rows;
+}
+
+void RestingMap::follow(const Passage& passage, double negligible) {
+  const Indices rows = judged(negligible);
+  Eigen::MatrixXd C_judged = C_.rows(rows, passage.support());
+  if (negligible > 0.0) {
+    const auto inverse = [](double variance) {
+      return variance > 0.0 ? 1.0 / std::sqrt(variance) : 0.0;
+    };
+    C_judged = variance_(rows).unaryExpr(inverse).asDiagonal() * C_judged;
+  }
+  const Eigen::MatrixXd At = lowRankFactor(C_judged, passage.Psi(), negligible).transpose();
+  const Index first = P_.owe(At.rows());
+  Eigen::MatrixXd C_support;
+  Eigen::MatrixX3d step(C_.panels() * kRows, 3);
+  for (Index panel = 0; panel < C_.panels(); ++panel) {
+    passage.gather(C_, panel, C_support);
+    step.middleRows<kRows>(panel * kRows) = passage.step(C_support);
+    addPanelProduct(P_.owed().column(panel, first), At.rows(), C_support.data(), At.data(),
+                    At.rows(), At.cols());
+    const Index count = std::min(kRows, variance_.size() - panel * kRows);
+    variance_.segment(panel * kRows, count) -=
+        P_.owed().panel(panel).rightCols(At.rows()).topRows(count).rowwise().squaredNorm();
+  }
+  for (const Block& block : blocks_)
+    x_.segment(block.offset, block.size()) =
+        moved(block, step.middleRows(block.offset, block.size()));
+}
+
+void RestingMap::giveSlots(std::vector<Block>& leaving) {
+  Index size = x_.size();
+  for (Block& block : leaving) {
+    const auto [slot, fresh] = slots_.try_emplace(block.id, Slot{size, block.size()});
+    if (fresh) size += block.size();
+    block.offset = static_cast<int>(slot->second.offset);
+  }
+  x_.conservativeResize(size);
+  x_transported_.conservativeResize(size);
+  variance_.conservativeResize(size);
+  rests_.resize(at(size), false);
+  P_.grow(size);
+  C_.growRows(size);
 }
 
 void RestingMap::exchange(State& state, const std::vector<LandmarkId>& active, bool invariant,
                           double negligible) {
+  invariant_ = invariant;
+  const Index n_before = state.x.size();
+  std::optional<Passage> passage;
+  if (state.transfer) {
+    passage.emplace(*state.transfer);
+    follow(*passage, negligible);
+  }
   const auto isActive = [&](const Block& block) {
     return std::binary_search(active.begin(), active.end(), block.id);
   };
-  // The resting part up to now: values, covariance X with the state, what is owed to its own.
-  Eigen::MatrixXd X = Eigen::MatrixXd::Zero(x_.size(), state.x.size());
-  if (state.transfer) {
-    const Transfer& transfer = *state.transfer;
-    X.noalias() = C_ * transfer.Phi.transpose();
-    const Eigen::VectorXd now = values(state);
-    const Eigen::VectorXd g = worldTurn(now) - worldTurn(x_);
-    x_ = now;
-    const Eigen::MatrixXd D =
-        C_ * lowRankFactor(negligible > 0.0 ? judged() : C_, transfer.Psi, negligible);
-    addOwed(D, Eigen::VectorXd::Constant(D.cols(), -1.0));
-    if (invariant) {
-      // M = I + g e^T for the resting points: P + g w^T + w g^T with w = h + v/2 g, as a
-      // difference of two squares.
-      const Eigen::VectorXd w = X.col(2) + 0.5 * state.P(2, 2) * g;
-      Eigen::MatrixXd squares(g.size(), 2);
-      squares << g + w, g - w;
-      addOwed(squares, Eigen::Vector2d(0.5, -0.5));
-      X.noalias() += g * state.P.row(2);
-    }
-  }
-
-  std::vector<Block> kept, leaving, entering, resting;
+  std::vector<Block> kept, leaving, entering;
   std::partition_copy(state.blocks.begin(), state.blocks.end(), std::back_inserter(kept),
                       std::back_inserter(leaving), isActive);
-  std::partition_copy(blocks_.begin(), blocks_.end(), std::back_inserter(entering),
-                      std::back_inserter(resting), isActive);
+  std::copy_if(blocks_.begin(), blocks_.end(), std::back_inserter(entering), isActive);
+  std::erase_if(blocks_, isActive);
+  if (blocks_.empty()) P_.settle();
+  std::sort(entering.begin(), entering.end(),
+            [](const Block& a, const Block& b) { return a.offset < b.offset; });
 
-  // Covariance of what enters with all that rested.
-  const std::vector<Eigen::Index> in = indicesOf(entering);
-  if (resting.empty()) settleDebts();
-  Eigen::MatrixXd E = columnsNow(in);
-
-  // What leaves takes its slots. Nothing is owed to what is written now, nor to what leaves here.
-  const Eigen::Index former_size = x_.size();
-  Eigen::Index size = former_size;
-  for (const Block& block : leaving) {
-    auto [slot, fresh] = slots_.try_emplace(block.id, Slot{size, block.size()});
-    if (fresh) size += block.size();
-    resting.push_back(block);
-    resting.back().offset = static_cast<int>(slot->second.offset);
+  // What enters: its covariance with the state, and the transport M = I + g e^T of its points by
+  // their whole way since they came to rest.
+  const Indices in = indicesOf(entering);
+  const auto n_in = static_cast<Index>(in.size());
+  const Eigen::VectorXd x_in = x_(in);
+  Eigen::MatrixXd X_in = Eigen::MatrixXd::Zero(n_in, n_before);
+  if (n_in > 0) X_in.noalias() = C_.rows(in) * state.transfer->Phi.transpose();
+  const Eigen::VectorXd h_in = X_in.col(2);
+  Eigen::VectorXd g_in = Eigen::VectorXd::Zero(n_in);
+  if (invariant) {
+    Index row = 0;
+    for (const Block& block : entering) {
+      g_in.segment(row, block.size()) = turnOfWay(block, x_in.segment(row, block.size()));
+      row += block.size();
+    }
+    X_in += g_in * state.P.row(2);
   }
-  const auto growRows = [&](Eigen::MatrixXd& matrix) {
-    matrix.conservativeResize(size, Eigen::NoChange);
-    matrix.bottomRows(size - former_size).setZero();
-  };
-  x_.conservativeResize(size);
-  P_.grow(size);
-  growRows(X);
-  growRows(E);
-  growRows(owed_);
-  const std::vector<Eigen::Index> out = indicesOf(leaving);
-  const std::vector<Eigen::Index> out_slots =
-      indicesOf({resting.end() - static_cast<std::ptrdiff_t>(leaving.size()), resting.end()});
-  x_(out_slots) = state.x(out);
-  owed_(out_slots, Eigen::all).setZero();
-  owed_(in, Eigen::all).setZero();
-  X(out_slots, Eigen::all) = state.P(out, Eigen::all);
-  E(out_slots, Eigen::all) = X(in, out).transpose();
-  for (std::size_t i = 0; i < out.size(); ++i) P_.setRowAndColumn(out_slots[i], X.col(out[i]));
+  const RestingCovariance::Columns columns_in = P_.columns(in);
+
+  // What leaves takes its slots; nothing is owed to what is written now.
+  const Indices out = indicesOf(leaving);
+  giveSlots(leaving);
+  const Indices out_slots = indicesOf(leaving);
+  P_.forgive(out_slots);
+  x_(out_slots) = x_transported_(out_slots) = state.x(out);
+  variance_(out_slots) = state.P.diagonal()(out);
+  for (const Index row : in) rests_[at(row)] = false;
+  for (const Index row : out_slots) rests_[at(row)] = true;
 
   // The new state: the robot, and what is active in the order of birth.
   State next;
-  std::vector<Eigen::Index> from_state{0, 1, 2}, to_state{0, 1, 2}, to_entering;
-  std::vector<Block> blocks = kept;
-  blocks.insert(blocks.end(), entering.begin(), entering.end());
-  std::sort(blocks.begin(), blocks.end(),
-            [](const Block& a, const Block& b) { return a.id < b.id; });
-  Eigen::Index n = 3;
-  for (Block& block : blocks) {
-    const bool comes = find(block.id) != nullptr;
-    for (int i = 0; i < block.size(); ++i) {
-      if (!comes) from_state.push_back(block.offset + i);
-      (comes ? to_entering : to_state).push_back(n + i);
+  Indices from_state{0, 1, 2}, to_state{0, 1, 2}, to_entering;
+  next.blocks = kept;
+  next.blocks.insert(next.blocks.end(), entering.begin(), entering.end());
+  std::sort(next.blocks.begin(), next.blocks.end(), older);
+  Index n = 3;
+  for (Block& block : next.blocks) {
+    if (state.find(block.id)) {
+      for (int i = 0; i < block.size(); ++i) {
+        from_state.push_back(block.offset + i);
+        to_state.push_back(n + i);
+      }
     }
     block.offset = static_cast<int>(n);
     n += block.size();
   }
-  next.blocks = std::move(blocks);
+  for (const Block& block : entering)
+    for (int i = 0; i < block.size(); ++i) to_entering.push_back(next.find(block.id)->offset + i);
   next.x.resize(n);
   next.x(to_state) = state.x(from_state);
-  next.x(to_entering) = x_(in);
+  next.x(to_entering) = x_in;
+
+  // Panel by panel: X, the covariance of what rests with the former state, and E, with what enters;
+  // from both the new C, and the covariance of what leaves with all that rests.
+  RowsByPanel rows_in(in), rows_out(out_slots);
+  Eigen::MatrixXd P_in(n_in, n_in), C_support, X(kRows, n_before), E(kRows, n_in);
+  const Index columns_before = C_.cols();
+  C_.setCols(std::max(columns_before, n));
+  for (Index panel = 0; panel < C_.panels(); ++panel) {
+    X.setZero();
+    if (passage) passage->carry(C_, panel, C_support, X.data());
+    P_.readRows(panel, columns_in, E.data());
+    rows_in.of(panel, [&](Index row, Index i) { P_in.row(i) = E.row(row); });
+    if (invariant) E += X.col(2) * g_in.transpose();
+    rows_out.of(panel, [&](Index row, Index i) {
+      X.row(row) = state.P.row(out[at(i)]);
+      E.row(row) = X_in.col(out[at(i)]).transpose();
+    });
+    const Eigen::MatrixXd X_out = X(Eigen::all, out);
+    P_.writeRows(panel, out_slots, X_out.data());
+    auto C = C_.panel(panel);
+    C(Eigen::all, to_state) = X(Eigen::all, from_state);
+    C(Eigen::all, to_entering) = E;
+    for (Index row = 0; row < kRows; ++row)
+      if (const std::size_t r = at(panel * kRows + row); r >= rests_.size() || !rests_[r])
+        C.row(row).setZero();
+  }
+  C_.setCols(n);
+  P_.forgive(in);
+
+  const Eigen::VectorXd w_in = h_in + 0.5 * state.P(2, 2) * g_in;
+  P_in =
+      (0.5 * (P_in + P_in.transpose()) + g_in * w_in.transpose() + w_in * g_in.transpose()).eval();
   next.P.resize(n, n);
   next.P(to_state, to_state) = state.P(from_state, from_state);
-  next.P(to_entering, to_state) = X(in, from_state);
-  next.P(to_state, to_entering) = X(in, from_state).transpose();
-  const Eigen::MatrixXd P_in = E(in, Eigen::all);
-  next.P(to_entering, to_entering) = 0.5 * (P_in + P_in.transpose());
+  next.P(to_entering, to_state) = X_in(Eigen::all, from_state);
+  next.P(to_state, to_entering) = X_in(Eigen::all, from_state).transpose();
+  next.P(to_entering, to_entering) = P_in;
 
-  std::sort(resting.begin(), resting.end(),
-            [](const Block& a, const Block& b) { return a.id < b.id; });
-  blocks_ = std::move(resting);
+  const auto middle = static_cast<std::ptrdiff_t>(blocks_.size());
+  std::sort(leaving.begin(), leaving.end(), older);
+  blocks_.insert(blocks_.end(), leaving.begin(), leaving.end());
+  std::inplace_merge(blocks_.begin(), blocks_.begin() + middle, blocks_.end(), older);
   if (blocks_.empty()) {
     *this = RestingMap();
   } else {
-    const std::vector<Eigen::Index> rows = indicesOf(blocks_);
-    C_ = Eigen::MatrixXd::Zero(size, n);
-    C_(rows, to_state) = X(rows, from_state);
-    C_(rows, to_entering) = E(rows, Eigen::all);
     next.transfer = Transfer{Eigen::MatrixXd::Identity(n, n), Eigen::MatrixXd::Zero(n, n),
                              Eigen::MatrixX3d::Zero(n, 3)};
     P_state_ = next.P;
-    variance_ = variances();
   }
   state = std::move(next);
 }

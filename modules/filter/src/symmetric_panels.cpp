@@ -9,50 +9,50 @@
 namespace colonnade {
 
 void SymmetricPanels::grow(Eigen::Index size) {
-  size_ = std::max(size_, size);
-  while (panels() * kRows < size_)
-    panels_.push_back(Eigen::MatrixXd::Zero(kRows, kRows * (panels() + 1)));
+  panels_ = std::max(panels_, (size + kRows - 1) / kRows);
+  while (static_cast<Eigen::Index>(groups_.size()) * kTogether < panels_) {
+    const std::size_t side = (groups_.size() + 1) * static_cast<std::size_t>(kTogether * kRows);
+    groups_.emplace_back(side * static_cast<std::size_t>(kTogether * kRows));
+  }
 }
 
 double SymmetricPanels::operator()(Eigen::Index row, Eigen::Index column) const {
   if (row < column) std::swap(row, column);
-  return panels_[static_cast<std::size_t>(row / kRows)](row % kRows, column);
+  return tile(row / kRows, column)[row % kRows];
 }
 
-Eigen::VectorXd SymmetricPanels::column(Eigen::Index column) const {
-  Eigen::VectorXd values(panels() * kRows);
-  const Eigen::Index own = column / kRows;
-  values.head(column) =
-      panels_[static_cast<std::size_t>(own)].row(column % kRows).head(column).transpose();
-  for (Eigen::Index panel = own; panel < panels(); ++panel) {
-    const Eigen::Index skipped = panel == own ? column % kRows : 0;
-    values.segment(panel * kRows + skipped, kRows - skipped) =
-        panels_[static_cast<std::size_t>(panel)].col(column).tail(kRows - skipped);
-  }
-  return values.head(size_);
-}
-
-void SymmetricPanels::setRowAndColumn(Eigen::Index index, const Eigen::VectorXd& values) {
-  const Eigen::Index own = index / kRows;
-  panels_[static_cast<std::size_t>(own)].row(index % kRows).head(index) =
-      values.head(index).transpose();
-  for (Eigen::Index panel = own; panel < panels(); ++panel) {
-    const Eigen::Index first = std::max(panel * kRows, index);
-    const Eigen::Index end = std::min((panel + 1) * kRows, size_);
-    panels_[static_cast<std::size_t>(panel)].col(index).segment(
-        first - panel * kRows, end - first) = values.segment(first, end - first);
+void SymmetricPanels::readRows(Eigen::Index panel, std::span<const Eigen::Index> columns,
+                               double* to) const {
+  for (const Eigen::Index column : columns) {
+    const Eigen::Index own = column / kRows;
+    if (own <= panel) {
+      std::copy_n(tile(panel, column), kRows, to);
+    } else {
+      const double* from = tile(own, panel * kRows) + column % kRows;
+      for (Eigen::Index row = 0; row < kRows; ++row) to[row] = from[row * kRows];
+    }
+    to += kRows;
   }
 }
 
-void SymmetricPanels::addToPanel(Eigen::Index panel, const Eigen::Ref<const Eigen::MatrixXd>& D,
-                                 const Eigen::Ref<const Eigen::VectorXd>& weights) {
+void SymmetricPanels::writeRows(Eigen::Index panel, std::span<const Eigen::Index> columns,
+                                const double* from) {
+  for (const Eigen::Index column : columns) {
+    const Eigen::Index own = column / kRows;
+    if (own <= panel) std::copy_n(from, kRows, tile(panel, column));
+    if (own >= panel) {
+      double* to = tile(own, panel * kRows) + column % kRows;
+      for (Eigen::Index row = 0; row < kRows; ++row) to[row * kRows] = from[row];
+    }
+    from += kRows;
+  }
+}
+
+void SymmetricPanels::subtractSquare(Eigen::Index panel, const RowPanels& D, Eigen::Index cols) {
   static_assert(kRows == kPanelRows);
-  const Eigen::Index first = panel * kRows;
-  const Eigen::Index rows = std::min(kRows, size_ - first);
-  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(kRows, D.cols());
-  A.topRows(rows) = D.middleRows(first, rows) * weights.asDiagonal();
-  addPanelProduct(panels_[static_cast<std::size_t>(panel)].data(), first + rows, A.data(), D.data(),
-                  D.outerStride(), D.cols());
+  const Eigen::MatrixXd A = -D.panel(panel).leftCols(cols);
+  for (Eigen::Index other = 0; other <= panel; ++other)
+    addPanelProduct(tile(panel, other * kRows), kRows, A.data(), D.column(other, 0), kRows, cols);
 }
 
 }  // namespace colonnade

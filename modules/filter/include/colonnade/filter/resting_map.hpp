@@ -6,8 +6,8 @@
 #include <map>
 #include <vector>
 
+#include "colonnade/filter/resting_covariance.hpp"
 #include "colonnade/filter/state.hpp"
-#include "colonnade/filter/symmetric_panels.hpp"
 
 namespace colonnade {
 
@@ -15,12 +15,10 @@ namespace colonnade {
 /// nothing for it: what it learns stands in State::transfer, and follows when blocks are exchanged
 /// (compressed filter; Guivant and Nebot, IEEE T-RA 17(3), 2001). With the plain EKF an exchange
 /// leaves exactly what the full filter would have. With right-invariant transport the resting
-/// points are transported once, by the whole way they moved, in place of once for each correction:
+/// points are transported once, as they enter, in place of once for each correction:
 /// the direction nobody observes is kept just as well, the numbers differ in second order.
 ///
-/// The covariance of resting with resting blocks is the one thing that is large. Its change since
-/// an exchange is of low rank and is owed as such; what several exchanges owe is paid together, a
-/// few panels at a time, by workOff().
+/// The covariance of resting with resting blocks follows in its own time: see RestingCovariance.
 class RestingMap {
  public:
   bool empty() const { return blocks_.empty(); }
@@ -28,27 +26,31 @@ class RestingMap {
   Block* find(LandmarkId id);
   const Block* find(LandmarkId id) const;
 
-  /// The values of a resting block as of now, and of the last exchange.
-  BlockVector value(const Block& block, const State& state) const;
+  /// A resting block as of now: its values, its covariance (as of the last exchange: since then it
+  /// can only have lost) and that of the robot with it (3 x size).
+  struct Marginal {
+    BlockVector y;
+    Eigen::MatrixXd P;
+    Eigen::MatrixXd P_robot;
+  };
+  Marginal marginal(const Block& block, const State& state) const;
+  /// The values of a resting block as of the last exchange.
   BlockVector valueThen(const Block& block) const { return x_.segment(block.offset, block.size()); }
   /// No resting point has moved farther since the last exchange than so many of its deviations:
   /// |C theta| <= sigma sqrt(theta^T P theta), P the covariance of the state at that exchange.
   double largestMove(const State& state) const;
   /// The variance of the first two parameters of a block together, as of the last exchange.
   double spread2(const Block& block) const { return variance_.segment<2>(block.offset).sum(); }
-  /// Covariance of a resting block as of the last exchange: since then it can only have lost.
-  Eigen::MatrixXd covariance(const Block& block) const;
-  /// Covariance of the robot with a resting block as of now (3 x size).
-  Eigen::MatrixXd covarianceWithRobot(const Block& block, const State& state) const;
 
   /// Brings the resting part up to date and exchanges blocks: afterwards the state holds the blocks
   /// of `active` (ascending; all of them known here or there), and the others rest. Of what the
-  /// resting blocks gained, parts are left out for good that lower no judged variance (of blocks evenly
-  /// spread) by more than a share of `negligible`: the covariance of all stays the true one plus something positive semidefinite.
+  /// resting blocks gained, parts are left out for good that lower no judged variance (of blocks
+  /// evenly spread) by more than a share of `negligible`: the covariance of all stays the true one
+  /// plus something positive semidefinite.
   void exchange(State& state, const std::vector<LandmarkId>& active, bool invariant,
                 double negligible);
   /// A part of the work the exchanges left.
-  void workOff();
+  void workOff() { P_.workOff(); }
   void remove(LandmarkId id);
 
  private:
@@ -56,31 +58,27 @@ class RestingMap {
     Eigen::Index offset = 0;
     Eigen::Index size = 0;
   };
-  void addOwed(const Eigen::MatrixXd& D, const Eigen::VectorXd& weights);
-  void pay(Eigen::Index panel);
-  void closeAccount();
-  void settleDebts();
-  Eigen::VectorXd values(const State& state) const;
+  class Passage;
+  /// Brings values, variances and what is owed up to date.
+  void follow(const Passage& passage, double negligible);
+  /// Slots for blocks that come to rest; their offsets become those.
+  void giveSlots(std::vector<Block>& leaving);
   BlockVector moved(const Block& block, const Eigen::Ref<const Eigen::MatrixX3d>& step) const;
-  Eigen::VectorXd variances() const;
-  double covarianceAt(Eigen::Index row, Eigen::Index column) const;
-  /// Columns of the covariance of all that rests, debts paid.
-  Eigen::MatrixXd columnsNow(const std::vector<Eigen::Index>& columns) const;
-  /// Rows of C_ in units of their deviations: a part of them, evenly spread.
-  Eigen::MatrixXd judged() const;
-  Eigen::VectorXd worldTurn(const Eigen::VectorXd& x) const;
+  /// The rows by which it is judged what is negligible: all, or those of blocks evenly spread.
+  std::vector<Eigen::Index> judged(double negligible) const;
+  /// How far the block's own turn G has gone at `y` since its covariance was last transported.
+  BlockVector turnOfWay(const Block& block, const BlockVector& y) const;
 
   std::vector<Block> blocks_;         ///< those that rest; offset: that of the slot
   std::map<LandmarkId, Slot> slots_;  ///< once given, a block's for good
   Eigen::VectorXd x_;
-  SymmetricPanels P_;         ///< rows of slots whose block does not rest mean nothing
-  Eigen::MatrixXd C_;         ///< covariance with the state at the last exchange; see Transfer
+  Eigen::VectorXd x_transported_;  ///< what the covariance was last transported to
+  bool invariant_ = false;         ///< whether it is transported at all
+  std::vector<bool> rests_;        ///< rows of other slots mean nothing, and are zero in C_
+  RestingCovariance P_;
+  RowPanels C_;               ///< covariance with the state at the last exchange; see Transfer
   Eigen::MatrixXd P_state_;   ///< covariance of the state at the last exchange
   Eigen::VectorXd variance_;  ///< of every resting parameter at the last exchange
-  Eigen::MatrixXd owed_;      ///< D: P_ still lacks D diag(weights) D^T ...
-  Eigen::VectorXd weights_;
-  Eigen::Index paying_ = 0;       ///< ... but for so many of the first columns
-  Eigen::Index panels_done_ = 0;  ///< in so many of the first panels
 };
 
 }  // namespace colonnade

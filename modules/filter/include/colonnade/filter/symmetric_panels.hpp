@@ -3,35 +3,46 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
+#include <utility>
 #include <vector>
+
+#include "colonnade/base/memory.hpp"
+#include "colonnade/filter/row_panels.hpp"
 
 namespace colonnade {
 
 /// A large symmetric matrix that grows without being copied: its lower triangle in panels of a few
-/// rows, each panel from the first column to its own diagonal.
+/// rows, each panel from the first column to the end of its own square on the diagonal.
 class SymmetricPanels {
  public:
-  Eigen::Index size() const { return size_; }
-  /// New rows and columns are zero.
+  static constexpr Eigen::Index kRows = RowPanels::kRows;
+  Eigen::Index panels() const { return panels_; }
+  /// Room for so many rows; new rows and columns, up to the end of their panel, are zero.
   void grow(Eigen::Index size);
 
   double operator()(Eigen::Index row, Eigen::Index column) const;
-  /// The whole column, upper part included.
-  Eigen::VectorXd column(Eigen::Index column) const;
-  /// Row and column `index` become `values` (size() entries).
-  void setRowAndColumn(Eigen::Index index, const Eigen::VectorXd& values);
-
-  static Eigen::Index panelOf(Eigen::Index row) { return row / kRows; }
-  static Eigen::Index firstRow(Eigen::Index panel) { return panel * kRows; }
-  Eigen::Index panels() const { return static_cast<Eigen::Index>(panels_.size()); }
-  /// Adds D diag(weights) D^T to one panel; D has size() rows.
-  void addToPanel(Eigen::Index panel, const Eigen::Ref<const Eigen::MatrixXd>& D,
-                  const Eigen::Ref<const Eigen::VectorXd>& weights);
+  /// The rows of one panel of some columns: kRows x columns.size(), by columns.
+  void readRows(Eigen::Index panel, std::span<const Eigen::Index> columns, double* to) const;
+  /// The same entries, and with them those across the diagonal, become the values `from`.
+  void writeRows(Eigen::Index panel, std::span<const Eigen::Index> columns, const double* from);
+  /// Takes D D^T from one panel, D the first `cols` columns of a matrix.
+  void subtractSquare(Eigen::Index panel, const RowPanels& D, Eigen::Index cols);
 
  private:
-  static constexpr Eigen::Index kRows = 32;
-  Eigen::Index size_ = 0;
-  std::vector<Eigen::MatrixXd> panels_;  ///< kRows x (kRows (panel + 1)), column-major
+  /// So many panels lie in memory together, each as wide as the last of them.
+  static constexpr Eigen::Index kTogether = 4;
+  const double* tile(Eigen::Index panel, Eigen::Index column) const {
+    const Eigen::Index group = panel / kTogether;
+    const Eigen::Index width = (group + 1) * kTogether * kRows;
+    return groups_[static_cast<std::size_t>(group)].data() +
+           (panel % kTogether * width + column) * kRows;
+  }
+  double* tile(Eigen::Index panel, Eigen::Index column) {
+    return const_cast<double*>(std::as_const(*this).tile(panel, column));
+  }
+  Eigen::Index panels_ = 0;
+  std::vector<std::vector<double, LargeAllocator<double>>> groups_;
 };
 
 }  // namespace colonnade
