@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+
+namespace colonnade {
+
+/// A slice between two heights, seen by an upright camera.
+struct SliceGrid {
+  double camera_height_m = 0.0;
+  double min_height_m = 0.0;
+  double max_height_m = 0.0;
+  int bands = 1;  ///< of equal height
+  int columns = 0;
+  double middle_px = 0.0;
+  double focal_px = 0.0;
+};
+
+/// The rays of a row of a depth image, levelled: along it all parts are linear in the pixel column,
+/// first + u * step. They belong to a depth of 1 m.
+struct RayRow {
+  struct Part {
+    double first = 0.0, step = 0.0;
+  };
+  Part up, ahead, right;
+};
+
+/// Where the pixels of a row belong.
+struct SlicePlaces {
+  std::int32_t* bin;  ///< column * bands + band; negative: in none
+  float* z;           ///< forward, m
+  float* offset;      ///< of the ray from the middle of its column, columns
+};
+
+/// depth_m: of a row of the grid's width. The same bits on every machine.
+void placeRow(const float* depth_m, const RayRow& rays, const SliceGrid& grid,
+              const SlicePlaces& places);
+
+}  // namespace colonnade
