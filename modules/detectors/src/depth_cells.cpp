@@ -15,7 +15,7 @@ constexpr int kCellsInRow = 80;
 constexpr float kNearest_m = 0.2F;
 constexpr float kFarthest_m = 15.0F;
 constexpr float kAbsent = std::numeric_limits<float>::max();  ///< farther than all
-constexpr int kValidAround = 6;  ///< of nine cells
+constexpr int kValidAround = 6;                               ///< of nine cells
 
 constexpr int kLookedAt = 4;  ///< rows and columns of a cell
 

@@ -46,8 +46,8 @@ void placeCells(const float* near_m, int columns, const RowElsewhere& row, const
     const double z = depth * (r.first[2] + column * r.step[2]) + r.p_other[2];
     const double u = camera.cx_px + camera.fx_px * x / z;
     const double v = camera.cy_px + camera.fy_px * y / z;
-    const bool inside = (depth > 0.0) & (z >= kNearest_m) & (u > -0.5) & (v > -0.5) & (u < width) &
-                        (v < height);
+    const bool inside =
+        (depth > 0.0) & (z >= kNearest_m) & (u > -0.5) & (v > -0.5) & (u < width) & (v < height);
     const auto there_column = static_cast<std::int32_t>(inside ? (u + 0.5) / cell_px : 0.0);
     const auto there_row = static_cast<std::int32_t>(inside ? (v + 0.5) / cell_px : 0.0);
     cells[column] = inside ? there_row * stride + there_column : -1;
