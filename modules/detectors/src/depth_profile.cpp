@@ -106,12 +106,8 @@ DepthProfile makeDepthProfile(const Frame& frame, const DepthProfileOptions& opt
   std::vector<std::int32_t> bin(profile.columns.size());
   std::vector<float> z(bin.size()), offset(bin.size());
   for (int v = options.row_step / 2; v < frame.depth_m.rows; v += options.row_step) {
-    const Eigen::Vector3d first = camera.ray(0.0, v);
-    const Eigen::Vector3d step = camera.ray(1.0, v) - first;
-    const RayRow rays{{first.z(), step.z()},
-                      {forward.dot(first.head<2>()), forward.dot(step.head<2>())},
-                      {right.dot(first.head<2>()), right.dot(step.head<2>())}};
-    placeRow(frame.depth_m.ptr<float>(v), rays, grid, {bin.data(), z.data(), offset.data()});
+    placeRow(frame.depth_m.ptr<float>(v), RayRow(camera, v, forward), grid,
+             {bin.data(), z.data(), offset.data()});
     for (std::size_t u = 0; u < bin.size(); ++u)
       if (bin[u] >= 0) bins.add(static_cast<std::size_t>(bin[u]), z[u], offset[u]);
   }

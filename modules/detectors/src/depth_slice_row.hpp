@@ -4,6 +4,8 @@
 
 #include <cstdint>
 
+#include "ray_row.hpp"
+
 namespace colonnade {
 
 /// A slice between two heights, seen by an upright camera.
@@ -15,15 +17,6 @@ struct SliceGrid {
   int columns = 0;
   double middle_px = 0.0;
   double focal_px = 0.0;
-};
-
-/// The rays of a row of a depth image, levelled: along it all parts are linear in the pixel column,
-/// first + u * step. They belong to a depth of 1 m.
-struct RayRow {
-  struct Part {
-    double first = 0.0, step = 0.0;
-  };
-  Part up, ahead, right;
 };
 
 /// Where the pixels of a row belong.

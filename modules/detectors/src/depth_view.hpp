@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "colonnade/detectors/levelled_camera.hpp"
+#include "nearest_pixel.hpp"
 
 namespace colonnade {
 
@@ -37,16 +38,31 @@ class DepthView {
   double reach_m() const { return reach_m_; }
   bool empty() const { return depth_m_.empty(); }
 
+  int rows() const { return depth_m_.rows; }
+  const LevelledCamera& camera() const { return camera_; }
+
+  /// 0 where there is none.
+  double depthAt(int u, int v) const {
+    if (u < 0 || v < 0 || u >= depth_m_.cols || v >= depth_m_.rows) return 0.0;
+    const auto depth_m = static_cast<double>(depth_m_.ptr<float>(v)[u]);
+    return isMeasured(depth_m) ? depth_m : 0.0;
+  }
   std::optional<SeenPoint> at(int u, int v) const {
-    if (u < 0 || v < 0 || u >= depth_m_.cols || v >= depth_m_.rows) return std::nullopt;
-    const double depth_m = static_cast<double>(depth_m_.at<float>(v, u));
-    if (!isMeasured(depth_m)) return std::nullopt;
+    const double depth_m = depthAt(u, v);
+    if (depth_m <= 0.0) return std::nullopt;
     const Eigen::Vector3d offset = depth_m * camera_.ray(u, v);
     return SeenPoint{camera_.centre() + offset, depth_m, offset.head<2>().norm()};
   }
   std::optional<SeenPoint> at(const Eigen::Vector2d& p_px) const {
-    if (!p_px.allFinite() || p_px.cwiseAbs().maxCoeff() > 1e6) return std::nullopt;
-    return at(static_cast<int>(std::lround(p_px.x())), static_cast<int>(std::lround(p_px.y())));
+    const auto pixel = nearestPixel(p_px);
+    return pixel ? at(pixel->u, pixel->v) : std::nullopt;
+  }
+  /// Horizontal distance of what is seen there, if anything.
+  std::optional<double> rangeAt(const Eigen::Vector2d& p_px) const {
+    const auto pixel = nearestPixel(p_px);
+    const double depth_m = pixel ? depthAt(pixel->u, pixel->v) : 0.0;
+    if (depth_m <= 0.0) return std::nullopt;
+    return depth_m * camera_.ray(pixel->u, pixel->v).head<2>().norm();
   }
 
  private:
