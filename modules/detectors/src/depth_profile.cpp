@@ -105,11 +105,15 @@ DepthProfile makeDepthProfile(const Frame& frame, const DepthProfileOptions& opt
       middle,          profile.focal_px};
   std::vector<std::int32_t> bin(profile.columns.size());
   std::vector<float> z(bin.size()), offset(bin.size());
+  std::vector<int> blocks(bin.size() / kPlacedTogether + 1);
   for (int v = options.row_step / 2; v < frame.depth_m.rows; v += options.row_step) {
-    placeRow(frame.depth_m.ptr<float>(v), RayRow(camera, v, forward), grid,
-             {bin.data(), z.data(), offset.data()});
-    for (std::size_t u = 0; u < bin.size(); ++u)
-      if (bin[u] >= 0) bins.add(static_cast<std::size_t>(bin[u]), z[u], offset[u]);
+    const int count = placeRow(frame.depth_m.ptr<float>(v), RayRow(camera, v, forward), grid,
+                               {bin.data(), z.data(), offset.data(), blocks.data()});
+    for (int block = 0; block < count; ++block) {
+      const auto first = static_cast<std::size_t>(blocks[static_cast<std::size_t>(block)]);
+      for (std::size_t u = first; u < std::min(first + kPlacedTogether, bin.size()); ++u)
+        if (bin[u] >= 0) bins.add(static_cast<std::size_t>(bin[u]), z[u], offset[u]);
+    }
   }
   for (int i = 0; i < columns; ++i) {
     bins.summarise(profile.columns[static_cast<std::size_t>(i)], i, options.min_pixels,

@@ -19,15 +19,20 @@ struct SliceGrid {
   double focal_px = 0.0;
 };
 
+/// Pixels of a row are looked at in blocks; where none can be in the slice, nothing is done.
+constexpr int kPlacedTogether = 16;
+
 /// Where the pixels of a row belong.
 struct SlicePlaces {
   std::int32_t* bin;  ///< column * bands + band; negative: in none
   float* z;           ///< forward, m
   float* offset;      ///< of the ray from the middle of its column, columns
+  int* block;         ///< first pixels of the blocks that were placed
 };
 
-/// depth_m: of a row of the grid's width. The same bits on every machine.
-void placeRow(const float* depth_m, const RayRow& rays, const SliceGrid& grid,
-              const SlicePlaces& places);
+/// depth_m: of a row of the grid's width. Returns the number of blocks placed. The same bits on
+/// every machine.
+int placeRow(const float* depth_m, const RayRow& rays, const SliceGrid& grid,
+             const SlicePlaces& places);
 
 }  // namespace colonnade
