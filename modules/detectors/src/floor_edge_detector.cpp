@@ -96,8 +96,9 @@ Detection toDetection(const Frame& frame, const LevelledCamera& camera, const Re
   const Eigen::Vector2d middle = line.at(0.5 * (floor_line.begin + floor_line.end));
   const int far = across.dot(camera.downDirection(middle)) < 0.0 ? 1 : -1;
   detection.appearance.gradient_sign = far * line.gradient_sign;
-  detection.appearance.left = meanColourBeside(frame, line, floor_line.begin, floor_line.end, -far);
-  detection.appearance.right = meanColourBeside(frame, line, floor_line.begin, floor_line.end, far);
+  const BesideColours colours = coloursBeside(frame, line, floor_line.begin, floor_line.end);
+  detection.appearance.left = far > 0 ? colours.before : colours.behind;
+  detection.appearance.right = far > 0 ? colours.behind : colours.before;
   return detection;
 }
 

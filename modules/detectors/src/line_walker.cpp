@@ -47,8 +47,6 @@ Walker::Walker(const cv::Mat& gray, const cv::Mat& edges, bool steep)
       width_(steep ? edges.cols : edges.rows),
       all_(edgeBits(edges, steep)),
       free_(all_),
-      measured_(length_, width_),
-      shifts_(std::make_unique_for_overwrite<double[]>(edges.total())),
       low_(static_cast<std::size_t>(length_)),
       span_(low_.size()) {}
 
@@ -80,16 +78,10 @@ void Walker::collect(const Straight& line, const StepBits& bits, Samples& sample
   }
 }
 
-void Walker::measure(Samples& samples) {
+void Walker::measure(Samples& samples) const {
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const auto [s, t] = samples.pixel(i);
-    double& shift = shifts_[static_cast<std::size_t>(t) * static_cast<std::size_t>(length_) +
-                            static_cast<std::size_t>(s)];
-    if (!measured_.test(s, t)) {
-      measured_.set(s, t);
-      shift = shiftOf(s, t);
-    }
-    samples.setAcross(i, t + shift);
+    samples.setAcross(i, t + shiftOf(s, t));
   }
 }
 
@@ -105,12 +97,16 @@ void Walker::findCorridor(const Straight& line, double reach) {
 
 /// Vertex of the parabola through three gradient magnitudes, at most half a pixel away.
 double Walker::shiftOf(int s, int t) const {
-  const auto smooth = [&](int at) { return gray(s - 1, at) + 2 * gray(s, at) + gray(s + 1, at); };
-  const int column[5] = {smooth(t - 2), smooth(t - 1), smooth(t), smooth(t + 1), smooth(t + 2)};
+  const std::uint8_t* const here = gray_ + s * gray_s_ + t * gray_t_;
+  const auto smooth = [&](std::ptrdiff_t aside) {
+    const std::uint8_t* const p = here + aside * gray_t_;
+    return p[-gray_s_] + 2 * p[0] + p[gray_s_];
+  };
+  const int column[5] = {smooth(-2), smooth(-1), smooth(0), smooth(1), smooth(2)};
   const int before = std::abs(column[2] - column[0]);
-  const int here = std::abs(column[3] - column[1]);
+  const int at = std::abs(column[3] - column[1]);
   const int after = std::abs(column[4] - column[2]);
-  const int curvature = before - 2 * here + after;
+  const int curvature = before - 2 * at + after;
   return curvature < 0 ? std::clamp(0.5 * (before - after) / curvature, -0.5, 0.5) : 0.0;
 }
 

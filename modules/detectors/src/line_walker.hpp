@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
@@ -14,8 +13,7 @@
 namespace colonnade {
 
 /// The edge pixels of an image along steep (s = row) or flat (s = column) lines, apart for
-/// gradients that point along +1 and -1 across (t). An edge pixel is measured once, when a line
-/// first passes it.
+/// gradients that point along +1 and -1 across (t).
 class Walker {
  public:
   Walker(const cv::Mat& gray, const cv::Mat& edges, bool steep);
@@ -28,7 +26,7 @@ class Walker {
   /// The same of those not taken yet.
   void collectFree(const Straight& line, double reach, Samples& rising, Samples& falling);
   /// Finds out where exactly the gradient of each is greatest.
-  void measure(Samples& samples);
+  void measure(Samples& samples) const;
   void take(SampleSpan samples, int sign);
   /// Sector of an edge pixel's gradient.
   int sectorAt(double s, int t) const {
@@ -39,7 +37,6 @@ class Walker {
   void collect(const Straight& line, const StepBits& bits, Samples& samples) const;
   void findCorridor(const Straight& line, double reach);
   double shiftOf(int s, int t) const;
-  int gray(int s, int t) const { return gray_[s * gray_s_ + t * gray_t_]; }
 
   const std::uint8_t* gray_;
   std::ptrdiff_t gray_s_, gray_t_;
@@ -47,11 +44,9 @@ class Walker {
   std::ptrdiff_t edges_s_, edges_t_;
   int length_, width_;
   EdgeBits all_;
-  EdgeBits free_;                     ///< those of no line yet
-  StepBits measured_;                 ///< those whose shift is known
-  std::unique_ptr<double[]> shifts_;  ///< px from the pixel's centre; those along s together
-  std::vector<std::int32_t> low_;     ///< t at which the corridor of a line begins, by step
-  std::vector<std::int32_t> span_;    ///< its width
+  EdgeBits free_;                   ///< those of no line yet
+  std::vector<std::int32_t> low_;   ///< t at which the corridor of a line begins, by step
+  std::vector<std::int32_t> span_;  ///< its width
 };
 
 }  // namespace colonnade

@@ -148,8 +148,9 @@ Detections PillarDetector::detect(const Frame& frame, const RefinedLines& given)
     detection.a_px = line.at(line.begin);
     detection.b_px = line.at(line.end);
     detection.appearance.gradient_sign = line.gradient_sign;
-    detection.appearance.left = meanColourBeside(frame, line, line.begin, line.end, -1);
-    detection.appearance.right = meanColourBeside(frame, line, line.begin, line.end, 1);
+    const BesideColours colours = coloursBeside(frame, line, line.begin, line.end);
+    detection.appearance.left = colours.before;
+    detection.appearance.right = colours.behind;
     detection.refusal = reasonToRefuse(range.verdict, line.length(), options_);
     if (detection.accepted() && common_lean.known() &&
         std::abs(leanOf(camera, line) - common_lean.of(line)) >

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "colonnade/detectors/depth_noise.hpp"
+#include "nearest_pixel.hpp"
 #include "statistics.hpp"
 
 namespace colonnade {
@@ -41,7 +42,7 @@ struct Evidence {
 
 /// Gray levels across the line in the sense of its gradient.
 std::optional<int> contrastAt(const cv::Mat& gray, const RefinedLine& line, double v) {
-  const auto u = static_cast<int>(std::lround(line.across(v))), row = static_cast<int>(v);
+  const int u = roundToInt(line.across(v)), row = static_cast<int>(v);
   if (u < 3 || u + 3 >= gray.cols || row < 0 || row >= gray.rows) return std::nullopt;
   const auto* p = gray.ptr<unsigned char>(row);
   return line.gradient_sign * (p[u + 2] - p[u - 2]);
@@ -106,9 +107,9 @@ class Beyond {
     if (!contrast) return;
     const Eigen::Vector2d here = line_.at(v);
     const Eigen::Vector2d aside(kBeside_px, 0.0);
-    const auto left = depth_.at(here - aside), right = depth_.at(here + aside);
+    const auto left = depth_.rangeAt(here - aside), right = depth_.rangeAt(here + aside);
     // Where depth is missing on both sides, or beyond its reach, the contrast alone tells.
-    const double left_m = left ? left->range_m : kFar_m, right_m = right ? right->range_m : kFar_m;
+    const double left_m = left.value_or(kFar_m), right_m = right.value_or(kFar_m);
     const double nearer = std::min(left_m, right_m), farther = std::max(left_m, right_m);
     if (nearer < range_m_ - tolerance_m_) return;  // hidden
     const bool near_side = nearer < range_m_ + tolerance_m_;
@@ -126,10 +127,9 @@ class Beyond {
   /// range of a vertical plane is linear, and so the sides foretell the difference between them.
   bool isOnePlane(const Eigen::Vector2d& here, double left_m, double right_m) const {
     const Eigen::Vector2d aside(2.0 * kBeside_px, 0.0);
-    const auto left = depth_.at(here - aside), right = depth_.at(here + aside);
+    const auto left = depth_.rangeAt(here - aside), right = depth_.rangeAt(here + aside);
     if (!left || !right) return false;
-    const double foretold =
-        1.0 / left_m - 1.0 / left->range_m + 1.0 / right->range_m - 1.0 / right_m;
+    const double foretold = 1.0 / left_m - 1.0 / *left + 1.0 / *right - 1.0 / right_m;
     const double step = 1.0 / right_m - 1.0 / left_m - foretold;
     return std::abs(step) * range_m_ * range_m_ < tolerance_m_;
   }
@@ -189,11 +189,10 @@ bool isElsewhere(const DepthView& depth, const RefinedLine& line, double range_m
   int here = 0;
   for (int i = 0; i < kPlaces; ++i) {
     const double v = line.begin + (line.end - line.begin) * (i + 0.5) / kPlaces;
-    const auto left = depth.at(line.at(v) - Eigen::Vector2d(kBeside_px, 0.0));
-    const auto right = depth.at(line.at(v) + Eigen::Vector2d(kBeside_px, 0.0));
+    const auto left = depth.rangeAt(line.at(v) - Eigen::Vector2d(kBeside_px, 0.0));
+    const auto right = depth.rangeAt(line.at(v) + Eigen::Vector2d(kBeside_px, 0.0));
     if (!left && !right) continue;  // nothing where depth reaches
-    const double nearer =
-        std::min(left ? left->range_m : right->range_m, right ? right->range_m : left->range_m);
+    const double nearer = std::min(left ? *left : *right, right ? *right : *left);
     here += std::abs(nearer - range_m) < tolerance_m ? 1 : 0;
   }
   return 2 * here < kPlaces;
