@@ -24,6 +24,8 @@ struct SeenPoint {
 /// or beyond what a structured-light camera can know give nothing.
 class DepthView {
  public:
+  static constexpr double kNearest_m = 0.2, kFarthest_m = 15.0;
+
   DepthView(const Frame& frame, const LevelledCamera& camera) : camera_(camera) {
     const bool usable = frame.depth_m.type() == CV_32FC1 &&
                         (frame.gray.empty() || frame.depth_m.size() == frame.gray.size());
@@ -39,6 +41,8 @@ class DepthView {
   bool empty() const { return depth_m_.empty(); }
 
   int rows() const { return depth_m_.rows; }
+  int columns() const { return depth_m_.cols; }
+  const float* row(int v) const { return depth_m_.ptr<float>(v); }
   const LevelledCamera& camera() const { return camera_; }
 
   /// 0 where there is none.
@@ -67,8 +71,6 @@ class DepthView {
 
  private:
   static bool isMeasured(double depth_m) {
-    constexpr double kNearest_m = 0.2;
-    constexpr double kFarthest_m = 15.0;
     return depth_m > kNearest_m && depth_m < kFarthest_m;  // NaN is not
   }
   const LevelledCamera& camera_;

@@ -17,18 +17,20 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::infinity();
 
-/// Pixels of a row as (x, y) per metre of depth; depth 0 gives an infinite inverse.
+/// Where depth fails, infinite.
 COLONNADE_VECTOR_KERNEL
-void invertRanges(const double* depth_m, const double* u_px, const RayRow& rays, std::size_t count,
+void invertRanges(const float* depth_m, const double* u_px, const RayRow& rays, std::size_t count,
                   double* inverse) {
   const RayRow r = rays;
-  const double* __restrict depths = depth_m;
+  const float* __restrict depths = depth_m;
   const double* __restrict columns = u_px;
   double* __restrict out = inverse;
   for (std::size_t i = 0; i < count; ++i) {
-    const double x = depths[i] * (r.ahead.first + columns[i] * r.ahead.step);
-    const double y = depths[i] * (r.right.first + columns[i] * r.right.step);
-    out[i] = 1.0 / std::sqrt(x * x + y * y);
+    const auto depth = static_cast<double>(depths[i]);
+    const double x = depth * (r.ahead.first + columns[i] * r.ahead.step);
+    const double y = depth * (r.right.first + columns[i] * r.right.step);
+    const double q = 1.0 / std::sqrt(x * x + y * y);
+    out[i] = (depth > DepthView::kNearest_m) & (depth < DepthView::kFarthest_m) ? q : kNone;
   }
 }
 
@@ -55,21 +57,22 @@ void sortColumns(double* numbers) {
 }  // namespace
 
 RangeStrips::RangeStrips(const DepthView& depth, const RefinedLine& line) {
-  Row depths{}, columns{};
+  std::array<float, kLanes> depths{};
+  Row columns{};
   for (int row = 0; row < kRows; ++row) {
     const double v = line.begin + (line.end - line.begin) * (row + 0.5) / kRows;
     const auto centre = nearestPixel(Eigen::Vector2d(line.across(v), v));
     if (!centre || centre->v < 0 || centre->v >= depth.rows()) continue;
-    bool seen = false;
+    const float* const depth_row = depth.row(centre->v);
+    const bool inside = centre->u >= kDistances_px.back() &&
+                        centre->u + kDistances_px.back() < depth.columns();
     for (int side = 0; side < 2; ++side)
       for (std::size_t place = 0; place < kPlaces; ++place) {
         const int u = centre->u + (side == 0 ? -kDistances_px[place] : kDistances_px[place]);
         const std::size_t lane = laneOf(side, place);
         columns[lane] = u;
-        depths[lane] = depth.depthAt(u, centre->v);
-        seen = seen || (kDistances_px[place] <= kNearStart_px && depths[lane] > 0.0);
+        depths[lane] = inside || (u >= 0 && u < depth.columns()) ? depth_row[u] : 0.0F;
       }
-    if (!seen) continue;
     const RayRow rays(depth.camera(), centre->v);
     Row& inverse = inverse_[static_cast<std::size_t>(usableRows())];
     invertRanges(depths.data(), columns.data(), rays, kLanes, inverse.data());
@@ -77,13 +80,14 @@ RangeStrips::RangeStrips(const DepthView& depth, const RefinedLine& line) {
     for (int side = 0; side < 2; ++side)
       for (std::size_t place = 0; kDistances_px[place] <= kNearStart_px; ++place) {
         const std::size_t lane = laneOf(side, place);
-        if (depths[lane] > 0.0 && (nearest == kLanes || inverse[lane] > inverse[nearest]))
+        if (inverse[lane] < kNone && (nearest == kLanes || inverse[lane] > inverse[nearest]))
           nearest = lane;
       }
+    if (nearest == kLanes) continue;
     ++seen_rows_;
-    const double height_m =
-        depth.camera().height() + depths[nearest] * rays.up.at(columns[nearest]);
-    if (height_m < 0.05 + kinectDepthSigma(depths[nearest])) ++floor_rows_;
+    const auto depth_m = static_cast<double>(depths[nearest]);
+    const double height_m = depth.camera().height() + depth_m * rays.up.at(columns[nearest]);
+    if (height_m < 0.05 + kinectDepthSigma(depth_m)) ++floor_rows_;
   }
 }
 
