@@ -62,11 +62,10 @@ class DepthView {
     return pixel ? at(pixel->u, pixel->v) : std::nullopt;
   }
   /// Horizontal distance of what is seen there, if anything.
-  std::optional<double> rangeAt(const Eigen::Vector2d& p_px) const {
-    const auto pixel = nearestPixel(p_px);
-    const double depth_m = pixel ? depthAt(pixel->u, pixel->v) : 0.0;
+  std::optional<double> rangeAt(int u, int v) const {
+    const double depth_m = depthAt(u, v);
     if (depth_m <= 0.0) return std::nullopt;
-    return depth_m * camera_.ray(pixel->u, pixel->v).head<2>().norm();
+    return depth_m * camera_.ray(u, v).head<2>().norm();
   }
 
  private:
