@@ -20,17 +20,13 @@ class Bins {
   Bins(int columns, int rows)
       : rows_(static_cast<std::size_t>(columnBlocks(rows) * kColumnBlock)),
         counts_(static_cast<std::size_t>(columns) * DepthProfile::kBands, 0),
-        z_(std::make_unique_for_overwrite<float[]>(counts_.size() * rows_)),
-        offset_(std::make_unique_for_overwrite<float[]>(counts_.size() * rows_)),
+        pixels_(std::make_unique_for_overwrite<Pixel[]>(counts_.size() * rows_)),
         all_z_(DepthProfile::kBands * rows_),
         all_offset_(all_z_.size()),
         inverse_(all_z_.size()) {}
 
   void add(std::size_t bin, float z, float offset) {
-    if (counts_[bin] == rows_) return;
-    const std::size_t at = bin * rows_ + counts_[bin]++;
-    z_[at] = z;
-    offset_[at] = offset;
+    if (counts_[bin] < rows_) pixels_[bin * rows_ + counts_[bin]++] = {z, offset};
   }
 
   /// `slope` and `slope_step`: of the middle of the column and from column to column.
@@ -46,8 +42,11 @@ class Bins {
       float* const z = &all_z_[all];
       float* const offset = &all_offset_[all];
       double* const inverse = &inverse_[all];
-      std::copy_n(&z_[bin * rows_], count, z);
-      std::copy_n(&offset_[bin * rows_], count, offset);
+      const Pixel* const pixels_here = &pixels_[bin * rows_];
+      for (int i = 0; i < count; ++i) {
+        z[i] = pixels_here[i].z;
+        offset[i] = pixels_here[i].offset;
+      }
       fillColumnBlock(z, offset, count);
       const int blocks = columnBlocks(count);
       inverseDepths(z, blocks, inverse);
@@ -71,9 +70,12 @@ class Bins {
   }
 
  private:
+  struct Pixel {
+    float z, offset;
+  };
   std::size_t rows_;  ///< of a bin, whole blocks
   std::vector<std::size_t> counts_;
-  std::unique_ptr<float[]> z_, offset_;
+  std::unique_ptr<Pixel[]> pixels_;
   std::vector<float> all_z_, all_offset_;  ///< of a column
   std::vector<double> inverse_;
 };

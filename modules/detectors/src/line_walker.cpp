@@ -34,6 +34,23 @@ void findPixelsBeside(const Straight& line, double reach, int length, int width,
   }
 }
 
+/// Vertex of the parabola through three gradient magnitudes across, at most half a pixel away.
+inline __attribute__((always_inline)) double shiftAt(const std::uint8_t* here, std::ptrdiff_t along,
+                                                     std::ptrdiff_t across) {
+  const auto smooth = [&](std::ptrdiff_t aside) {
+    const std::uint8_t* const p = here + aside * across;
+    return p[-along] + 2 * p[0] + p[along];
+  };
+  const int sums[5] = {smooth(-2), smooth(-1), smooth(0), smooth(1), smooth(2)};
+  const int before = std::abs(sums[2] - sums[0]);
+  const int at = std::abs(sums[3] - sums[1]);
+  const int after = std::abs(sums[4] - sums[2]);
+  const int curvature = before - 2 * at + after;
+  if (curvature >= 0) return 0.0;
+  const double shift = 0.5 * (before - after) / curvature;
+  return shift < -0.5 ? -0.5 : (shift > 0.5 ? 0.5 : shift);
+}
+
 }  // namespace
 
 Walker::Walker(const cv::Mat& gray, const cv::Mat& edges, bool steep)
@@ -52,36 +69,52 @@ Walker::Walker(const cv::Mat& gray, const cv::Mat& edges, bool steep)
 
 void Walker::collectAll(const Straight& line, double reach, int sign, Samples& samples) {
   findCorridor(line, reach);
-  collect(line, sign > 0 ? all_.rising : all_.falling, samples);
+  samples.clear();
+  const StepBits& bits = sign > 0 ? all_.rising : all_.falling;
+  eachStep([&](int s, int low, std::uint64_t mask) {
+    if (const std::uint64_t row = bits.from(s, low) & mask; row != 0)
+      samples.add(s, nearest(line, s, low, row));
+  });
 }
 
 void Walker::collectFree(const Straight& line, double reach, Samples& rising, Samples& falling) {
   findCorridor(line, reach);
-  collect(line, free_.rising, rising);
-  collect(line, free_.falling, falling);
+  rising.clear();
+  falling.clear();
+  eachStep([&](int s, int low, std::uint64_t mask) {
+    const std::uint64_t up = free_.rising.from(s, low), down = free_.falling.from(s, low);
+    if (((up | down) & mask) == 0) return;
+    if ((up & mask) != 0) rising.add(s, nearest(line, s, low, up & mask));
+    if ((down & mask) != 0) falling.add(s, nearest(line, s, low, down & mask));
+  });
 }
 
-void Walker::collect(const Straight& line, const StepBits& bits, Samples& samples) const {
-  samples.clear();
+/// Calls take(s, first pixel of the corridor, a bit for each of its pixels).
+template <class Take>
+void Walker::eachStep(Take&& take) const {
   for (int s = 1; s < length_ - 1; ++s) {
-    const int low = low_[static_cast<std::size_t>(s)];
-    const int span = span_[static_cast<std::size_t>(s)];
-    std::uint64_t row = bits.from(s, low) & ((std::uint64_t{1} << span) - 1);
-    if (row == 0) continue;
-    int best = low + std::countr_zero(row);
-    for (row &= row - 1; row != 0; row &= row - 1) {
-      const int t = low + std::countr_zero(row);
-      const double centre = line.across(s);
-      if (std::abs(t - centre) < std::abs(best - centre)) best = t;
-    }
-    samples.add(s, best);
+    const std::uint64_t mask = (std::uint64_t{1} << span_[static_cast<std::size_t>(s)]) - 1;
+    take(s, low_[static_cast<std::size_t>(s)], mask);
   }
+}
+
+int Walker::nearest(const Straight& line, int s, int low, std::uint64_t row) {
+  int best = low + std::countr_zero(row);
+  for (row &= row - 1; row != 0; row &= row - 1) {
+    const int t = low + std::countr_zero(row);
+    const double centre = line.across(s);
+    if (std::abs(t - centre) < std::abs(best - centre)) best = t;
+  }
+  return best;
 }
 
 void Walker::measure(Samples& samples) const {
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const auto [s, t] = samples.pixel(i);
-    samples.setAcross(i, t + shiftOf(s, t));
+    const std::uint8_t* const here = gray_ + s * gray_s_ + t * gray_t_;
+    // The constant step lets the compiler see that the neighbours of steep lines lie side by side.
+    samples.setAcross(
+        i, t + (gray_t_ == 1 ? shiftAt(here, gray_s_, 1) : shiftAt(here, gray_s_, gray_t_)));
   }
 }
 
@@ -93,21 +126,6 @@ void Walker::take(SampleSpan samples, int sign) {
 
 void Walker::findCorridor(const Straight& line, double reach) {
   findPixelsBeside(line, reach, length_, width_, low_.data(), span_.data());
-}
-
-/// Vertex of the parabola through three gradient magnitudes, at most half a pixel away.
-double Walker::shiftOf(int s, int t) const {
-  const std::uint8_t* const here = gray_ + s * gray_s_ + t * gray_t_;
-  const auto smooth = [&](std::ptrdiff_t aside) {
-    const std::uint8_t* const p = here + aside * gray_t_;
-    return p[-gray_s_] + 2 * p[0] + p[gray_s_];
-  };
-  const int column[5] = {smooth(-2), smooth(-1), smooth(0), smooth(1), smooth(2)};
-  const int before = std::abs(column[2] - column[0]);
-  const int at = std::abs(column[3] - column[1]);
-  const int after = std::abs(column[4] - column[2]);
-  const int curvature = before - 2 * at + after;
-  return curvature < 0 ? std::clamp(0.5 * (before - after) / curvature, -0.5, 0.5) : 0.0;
 }
 
 }  // namespace colonnade

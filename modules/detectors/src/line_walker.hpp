@@ -34,9 +34,10 @@ class Walker {
   }
 
  private:
-  void collect(const Straight& line, const StepBits& bits, Samples& samples) const;
+  template <class Take>
+  void eachStep(Take&& take) const;
+  static int nearest(const Straight& line, int s, int low, std::uint64_t row);
   void findCorridor(const Straight& line, double reach);
-  double shiftOf(int s, int t) const;
 
   const std::uint8_t* gray_;
   std::ptrdiff_t gray_s_, gray_t_;

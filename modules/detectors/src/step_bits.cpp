@@ -61,15 +61,21 @@ std::uint64_t transposed(std::uint64_t x) {
 /// Rows become columns.
 StepBits transposed(const StepBits& rows, int height, int width) {
   StepBits columns(width, height);
-  for (int v = 0; v < height; v += 8) {
-    const int count = std::min(8, height - v);
-    for (int u = 0; u < width; u += 8) {
-      std::uint64_t tile = 0;
-      for (int i = 0; i < count; ++i) tile |= std::uint64_t{rows.step(v + i)[u / 8]} << (8 * i);
-      if (tile == 0) continue;
-      tile = transposed(tile);
-      for (int i = 0; i < std::min(8, width - u); ++i)
-        columns.step(u + i)[v / 8] = static_cast<std::uint8_t>(tile >> (8 * i));
+  constexpr int kTile = 8, kTiles = 8;
+  for (int v = 0; v < height; v += kTile) {
+    const int count = std::min(kTile, height - v);
+    for (int u = 0; u < width; u += kTiles * kTile) {
+      std::uint64_t any = 0;
+      for (int i = 0; i < count; ++i) any |= rows.from(v + i, u);
+      for (int tile_u = u; tile_u < std::min(u + kTiles * kTile, width); tile_u += kTile) {
+        if ((any >> (tile_u - u) & 0xff) == 0) continue;  // most tiles hold no edges
+        std::uint64_t tile = 0;
+        for (int i = 0; i < count; ++i)
+          tile |= std::uint64_t{rows.step(v + i)[tile_u / 8]} << (8 * i);
+        tile = transposed(tile);
+        for (int i = 0; i < std::min(kTile, width - tile_u); ++i)
+          columns.step(tile_u + i)[v / 8] = static_cast<std::uint8_t>(tile >> (8 * i));
+      }
     }
   }
   return columns;
