@@ -60,15 +60,25 @@ inline __attribute__((always_inline)) Split splitAt(const float* z, int blocks,
   return split;
 }
 
-/// Bisection between `least` and `most`, from value to value.
+/// Between `least` and `most`, both among the values: guesses from how many are on each side, as if
+/// they were spread evenly, and halves the interval in turn, from value to value.
 inline __attribute__((always_inline)) float medianBetween(const float* z, int blocks, int pixels,
                                                           std::int32_t least, std::int32_t most) {
-  while (least < most) {
-    const Split split = splitAt(z, blocks, least + (most - least) / 2);
-    if (split.count > pixels / 2)
+  const int rank = pixels / 2;
+  int before = 0, up_to = pixels;  // values below `least` and up to `most`
+  for (bool halve = false; least < most; halve = !halve) {
+    const std::int32_t width = most - least;
+    const float share = (static_cast<float>(rank - before) + 0.5F) / static_cast<float>(up_to - before);
+    const std::int32_t way =
+        halve ? width / 2 : static_cast<std::int32_t>(share * static_cast<float>(width));
+    const Split split = splitAt(z, blocks, least + std::clamp(way, 0, width - 1));
+    if (split.count > rank) {
       most = split.last;
-    else
+      up_to = split.count;
+    } else {
       least = split.next;
+      before = split.count;
+    }
   }
   return std::bit_cast<float>(least);
 }

@@ -3,6 +3,7 @@
 #include "pillar_seeds.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -73,17 +74,17 @@ void findRidges(const std::uint8_t* row, int columns, int least, std::int16_t* a
   }
 }
 
-/// Calls take(u) for each pixel that is not 0.
+/// Calls take(u) for each pixel of a row that has one of the two codes.
 template <class Take>
 void eachEdge(const std::uint8_t* codes, int columns, Take&& take) {
+  static_assert(kRising % 2 == 1 && kFalling % 2 == 1);
+  constexpr std::uint64_t kLowest = 0x0101010101010101;  // bits of all bytes
   constexpr int kWord = 8;
   for (int first = 0; first < columns; first += kWord) {
-    const int end = std::min(first + kWord, columns);
     std::uint64_t word = 0;
-    std::memcpy(&word, codes + first, static_cast<std::size_t>(end - first));
-    if (word == 0) continue;
-    for (int u = first; u < end; ++u)
-      if (codes[u] != 0) take(u);
+    std::memcpy(&word, codes + first,
+                static_cast<std::size_t>(std::min(kWord, columns - first)));
+    for (word &= kLowest; word != 0; word &= word - 1) take(first + std::countr_zero(word) / 8);
   }
 }
 
