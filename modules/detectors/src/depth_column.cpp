@@ -68,7 +68,8 @@ inline __attribute__((always_inline)) float medianBetween(const float* z, int bl
   int before = 0, up_to = pixels;  // values below `least` and up to `most`
   for (bool halve = false; least < most; halve = !halve) {
     const std::int32_t width = most - least;
-    const float share = (static_cast<float>(rank - before) + 0.5F) / static_cast<float>(up_to - before);
+    const float share =
+        (static_cast<float>(rank - before) + 0.5F) / static_cast<float>(up_to - before);
     const std::int32_t way =
         halve ? width / 2 : static_cast<std::int32_t>(share * static_cast<float>(width));
     const Split split = splitAt(z, blocks, least + std::clamp(way, 0, width - 1));

@@ -108,13 +108,23 @@ DepthProfile makeDepthProfile(const Frame& frame, const DepthProfileOptions& opt
   std::vector<std::int32_t> bin(profile.columns.size());
   std::vector<float> z(bin.size()), offset(bin.size());
   std::vector<int> blocks(bin.size() / kPlacedTogether + 1);
-  for (int v = options.row_step / 2; v < frame.depth_m.rows; v += options.row_step) {
-    const int count = placeRow(frame.depth_m.ptr<float>(v), RayRow(camera, v, forward), grid,
-                               {bin.data(), z.data(), offset.data(), blocks.data()});
-    for (int block = 0; block < count; ++block) {
-      const auto first = static_cast<std::size_t>(blocks[static_cast<std::size_t>(block)]);
-      for (std::size_t u = first; u < std::min(first + kPlacedTogether, bin.size()); ++u)
-        if (bin[u] >= 0) bins.add(static_cast<std::size_t>(bin[u]), z[u], offset[u]);
+  std::vector<RayRow> rays;  // of the rows read
+  for (int v = options.row_step / 2; v < frame.depth_m.rows; v += options.row_step)
+    rays.emplace_back(camera, v, forward);
+  // Upright strips fill few bins at a time, which stay near.
+  constexpr int kStrip_px = 8 * kPlacedTogether;
+  for (int strip = 0; strip < columns; strip += kStrip_px) {
+    const int strip_end = std::min(strip + kStrip_px, columns);
+    int v = options.row_step / 2;
+    for (const RayRow& row : rays) {
+      const int count = placeRow(frame.depth_m.ptr<float>(v), strip, strip_end, row, grid,
+                                 {bin.data(), z.data(), offset.data(), blocks.data()});
+      for (int block = 0; block < count; ++block) {
+        const auto first = static_cast<std::size_t>(blocks[static_cast<std::size_t>(block)]);
+        for (std::size_t u = first; u < std::min(first + kPlacedTogether, bin.size()); ++u)
+          if (bin[u] >= 0) bins.add(static_cast<std::size_t>(bin[u]), z[u], offset[u]);
+      }
+      v += options.row_step;
     }
   }
   for (int i = 0; i < columns; ++i) {

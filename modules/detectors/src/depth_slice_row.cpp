@@ -38,7 +38,7 @@ DepthRange depthsWithin(const RayRow& rays, const SliceGrid& grid) {
 }  // namespace
 
 COLONNADE_VECTOR_KERNEL
-int placeRow(const float* depth_m, const RayRow& rays, const SliceGrid& grid,
+int placeRow(const float* depth_m, int first, int last, const RayRow& rays, const SliceGrid& grid,
              const SlicePlaces& places) {
   constexpr double kLeastAhead = 0.1;
   const float* __restrict depths = depth_m;
@@ -50,19 +50,18 @@ int placeRow(const float* depth_m, const RayRow& rays, const SliceGrid& grid,
   const double low = grid.min_height_m, high = grid.max_height_m;
   const double per_band = grid.bands / (high - low);
   const double middle = grid.middle_px, focal = grid.focal_px;
-  const double last = grid.columns - 1.0;
+  const double last_column = grid.columns - 1.0;
   const std::int32_t bands = grid.bands;
-  const int columns = grid.columns;
   const DepthRange range = depthsWithin(rays, grid);
   int blocks = 0;
-  for (int first = 0; first < columns; first += kPlacedTogether) {
-    const int end = std::min(first + kPlacedTogether, columns);
+  for (int begin = first; begin < last; begin += kPlacedTogether) {
+    const int end = std::min(begin + kPlacedTogether, last);
     int any = 0;
-    for (int u = first; u < end; ++u)
+    for (int u = begin; u < end; ++u)
       any |= (depths[u] > range.least) & (depths[u] < range.most) ? 1 : 0;
     if (any == 0) continue;
-    places.block[blocks++] = first;
-    for (int u = first; u < end; ++u) {
+    places.block[blocks++] = begin;
+    for (int u = begin; u < end; ++u) {
       const double depth = static_cast<double>(depths[u]);
       const double height = camera_height_m + depth * (r.up.first + u * r.up.step);
       const double ahead = r.ahead.first + u * r.ahead.step;
@@ -70,7 +69,7 @@ int placeRow(const float* depth_m, const RayRow& rays, const SliceGrid& grid,
       // NaN is in none.
       const bool inside = (depth > kNearest_m) & (depth < kFarthest_m) & (height >= low) &
                           (height < high) & (ahead >= kLeastAhead) & (column > -0.5) &
-                          (column < last + 0.5);
+                          (column < last_column + 0.5);
       const double known_column = inside ? column : 0.0;
       const double known_height = inside ? height : low;
       const auto index = static_cast<std::int32_t>(known_column + 0.5);

@@ -30,9 +30,9 @@ struct SlicePlaces {
   int* block;         ///< first pixels of the blocks that were placed
 };
 
-/// depth_m: of a row of the grid's width. Returns the number of blocks placed. The same bits on
-/// every machine.
-int placeRow(const float* depth_m, const RayRow& rays, const SliceGrid& grid,
+/// depth_m: of a row of the grid's width, of which the pixels [first, last) are placed; first is
+/// where a block begins. Returns the number of blocks placed. The same bits on every machine.
+int placeRow(const float* depth_m, int first, int last, const RayRow& rays, const SliceGrid& grid,
              const SlicePlaces& places);
 
 }  // namespace colonnade

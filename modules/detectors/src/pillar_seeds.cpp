@@ -67,8 +67,8 @@ void findRidges(const std::uint8_t* row, int columns, int least, std::int16_t* a
   for (int u = 0; u < kBorder; ++u) code[u] = code[columns - 1 - u] = 0;
   for (int u = kBorder; u < columns - kBorder; ++u) {
     const std::int16_t here = magnitude(a[u]);
-    const bool ridge = (here >= enough) & (here > magnitude(a[u - 1])) &
-                       (here >= magnitude(a[u + 1]));
+    const bool ridge =
+        (here >= enough) & (here > magnitude(a[u - 1])) & (here >= magnitude(a[u + 1]));
     const std::uint8_t way = a[u] > 0 ? kRising : kFalling;
     code[u] = ridge ? way : std::uint8_t{0};
   }
@@ -80,12 +80,14 @@ void eachEdge(const std::uint8_t* codes, int columns, Take&& take) {
   static_assert(kRising % 2 == 1 && kFalling % 2 == 1);
   constexpr std::uint64_t kLowest = 0x0101010101010101;  // bits of all bytes
   constexpr int kWord = 8;
-  for (int first = 0; first < columns; first += kWord) {
-    std::uint64_t word = 0;
-    std::memcpy(&word, codes + first,
-                static_cast<std::size_t>(std::min(kWord, columns - first)));
-    for (word &= kLowest; word != 0; word &= word - 1) take(first + std::countr_zero(word) / 8);
+  int u = 0;
+  for (; u + kWord <= columns; u += kWord) {
+    std::uint64_t word;
+    std::memcpy(&word, codes + u, sizeof word);
+    for (word &= kLowest; word != 0; word &= word - 1) take(u + std::countr_zero(word) / 8);
   }
+  for (; u < columns; ++u)
+    if (codes[u] != 0) take(u);
 }
 
 /// Where upright lines cross the middle row, in bins of a pixel.

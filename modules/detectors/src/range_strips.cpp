@@ -44,7 +44,7 @@ void sortColumns(double* numbers) {
     for (int apart = half; apart >= 1; apart /= 2)
       for (int first = apart % half; first + apart < kRows; first += 2 * apart)
         for (int i = first; i < std::min(first + apart, kRows - apart); ++i) {
-          if (i / (2 * half) != (i + apart) / (2 * half)) continue;
+          if ((i ^ (i + apart)) >= 2 * half) continue;  // not of one pair of halves
           Lanes a, b;
           std::memcpy(&a, numbers + 4 * i, sizeof a);
           std::memcpy(&b, numbers + 4 * (i + apart), sizeof b);
@@ -64,8 +64,8 @@ RangeStrips::RangeStrips(const DepthView& depth, const RefinedLine& line) {
     const auto centre = nearestPixel(Eigen::Vector2d(line.across(v), v));
     if (!centre || centre->v < 0 || centre->v >= depth.rows()) continue;
     const float* const depth_row = depth.row(centre->v);
-    const bool inside = centre->u >= kDistances_px.back() &&
-                        centre->u + kDistances_px.back() < depth.columns();
+    const bool inside =
+        centre->u >= kDistances_px.back() && centre->u + kDistances_px.back() < depth.columns();
     for (int side = 0; side < 2; ++side)
       for (std::size_t place = 0; place < kPlaces; ++place) {
         const int u = centre->u + (side == 0 ? -kDistances_px[place] : kDistances_px[place]);
