@@ -30,14 +30,16 @@ class DepthView {
     const bool usable = frame.depth_m.type() == CV_32FC1 &&
                         (frame.gray.empty() || frame.depth_m.size() == frame.gray.size());
     if (usable) depth_m_ = frame.depth_m;
+  }
+  /// The farthest depth of this frame, looked for anew: what is missing beyond may be out of reach.
+  double farthest_m() const {
     constexpr int kEvery_px = 8;
+    double farthest_m = 0.0;
     for (int v = 0; v < depth_m_.rows; v += kEvery_px)
       for (int u = 0; u < depth_m_.cols; u += kEvery_px)
-        if (isMeasured(depth_m_.at<float>(v, u)))
-          reach_m_ = std::max(reach_m_, static_cast<double>(depth_m_.at<float>(v, u)));
+        farthest_m = std::max(farthest_m, depthAt(u, v));
+    return farthest_m;
   }
-  /// The farthest depth of this frame: what is missing beyond may be out of reach.
-  double reach_m() const { return reach_m_; }
   bool empty() const { return depth_m_.empty(); }
 
   int rows() const { return depth_m_.rows; }
@@ -74,7 +76,6 @@ class DepthView {
   }
   const LevelledCamera& camera_;
   cv::Mat depth_m_;
-  double reach_m_ = 0.0;
 };
 
 }  // namespace colonnade

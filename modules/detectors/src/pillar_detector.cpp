@@ -137,6 +137,7 @@ Detections PillarDetector::detect(const Frame& frame, const RefinedLines& given)
   if (frame.gray.empty()) return detections;
   const LevelledCamera camera(frame);
   const DepthView depth(frame, camera);
+  const double reach_m = depth.farthest_m();
   RefinedLines lines = given;
   const RefinedLines faint = faintUprights(frame.gray, camera, options_, lines_);
   lines.insert(lines.end(), faint.begin(), faint.end());
@@ -164,8 +165,9 @@ Detections PillarDetector::detect(const Frame& frame, const RefinedLines& given)
       detection.refusal = "a shade without an edge";
     if (detection.accepted()) {
       const auto seen_m = range.range_m > 0.0 ? std::optional(range.range_m) : std::nullopt;
-      const UprightEdge edge{frame.gray, depth,           camera,   line,
-                             seen_m,     range.one_sided, options_, contrastOf(frame.gray, line)};
+      const UprightEdge edge{frame.gray,      depth,    reach_m,
+                             camera,          line,     seen_m,
+                             range.one_sided, options_, contrastOf(frame.gray, line)};
       const SeenSpan span = seenSpan(edge, lines);
       detection.refusal = reasonAgainstSpan(edge, span);
       detection.on_surface =

@@ -24,6 +24,10 @@ constexpr double kFar_m = 1e3;
 constexpr double kLeastContrast = 4.5;  // gray levels, median: more than noise and shades leave
 constexpr double kLeastShare = 0.15;    // of its own contrast that an edge keeps where it goes on
 
+std::size_t rowsBetween(double top, double bottom) {
+  return bottom >= top ? static_cast<std::size_t>(bottom - top) + 1 : 0;
+}
+
 struct Evidence {
   int seen = 0;
   int ended = 0;
@@ -31,10 +35,9 @@ struct Evidence {
 
   /// may_turn: before a skirting board the contrast may turn about and become weaker, and the
   /// corner is still there.
-  bool endedWithoutTrace(int own_contrast, bool may_turn) const {
+  bool endedWithoutTrace(int own_contrast, bool may_turn) && {
     if (seen < kLeastRows || 5 * ended <= 3 * seen) return false;
-    std::vector<int> left = contrasts;
-    const int median = medianOf(left);
+    const int median = medianOf(contrasts);
     return may_turn ? std::abs(median) < kLeastContrast
                     : median < std::max(kLeastContrast, kLeastShare * own_contrast);
   }
@@ -59,7 +62,7 @@ class Beyond {
         range_m_(*edge.range_m),
         one_sided_(edge.one_sided),
         tolerance_m_(edge.options.surface_step_m + 3.0 * kinectDepthSigma(range_m_)),
-        in_reach_(range_m_ + tolerance_m_ < edge.depth.reach_m()) {}
+        in_reach_(range_m_ + tolerance_m_ < edge.reach_m) {}
 
   double heightAt(double v) const {
     const Eigen::Vector3d ray = camera_.ray(line_.at(v));
@@ -86,9 +89,10 @@ class Beyond {
            between(bottom - stretch, bottom).endedWithoutTrace(own_contrast, may_turn);
   }
   Evidence between(double top, double bottom) const {
+    const double first = std::max(top, 2.0), last = std::min(bottom, gray_.rows - 3.0);
     Evidence evidence;
-    for (double v = std::max(top, 2.0); v <= std::min(bottom, gray_.rows - 3.0); v += 1.0)
-      addRow(v, evidence);
+    evidence.contrasts.reserve(rowsBetween(first, last));
+    for (double v = first; v <= last; v += 1.0) addRow(v, evidence);
     return evidence;
   }
 
@@ -143,6 +147,7 @@ class BeyondUnranged {
 
   Evidence between(double top, double bottom) const {
     Evidence evidence;
+    evidence.contrasts.reserve(rowsBetween(top, bottom));
     for (double v = top; v <= bottom; v += 1.0)
       if (const auto contrast = contrastAt(gray_, line_, v))
         evidence.contrasts.push_back(*contrast);
@@ -192,7 +197,7 @@ bool isElsewhere(const DepthView& depth, const RefinedLine& line, double range_m
 
 /// What continues a line, in the order of their upper ends.
 RefinedLines piecesOf(const UprightEdge& edge, const RefinedLines& lines) {
-  const auto& [gray, depth, camera, line, range_m, one_sided, options, contrast] = edge;
+  const auto& [gray, depth, reach_m, camera, line, range_m, one_sided, options, contrast] = edge;
   constexpr double kAside_px = 2.5;
   constexpr double kBelowFloor_m = 0.15;
   RefinedLines pieces;
@@ -216,6 +221,7 @@ RefinedLines piecesOf(const UprightEdge& edge, const RefinedLines& lines) {
 
 int contrastOf(const cv::Mat& gray, const RefinedLine& line) {
   std::vector<int> contrasts;
+  contrasts.reserve(rowsBetween(line.begin, line.end));
   for (double v = line.begin; v <= line.end; v += 1.0)
     if (const auto contrast = contrastAt(gray, line, v)) contrasts.push_back(*contrast);
   return medianOf(contrasts);
@@ -248,7 +254,7 @@ bool hasGapInside(const UprightEdge& edge, const SeenSpan& span) {
 }
 
 std::string reasonAgainstSpan(const UprightEdge& edge, const SeenSpan& span) {
-  const auto& [gray, depth, camera, line, range_m, one_sided, options, own] = edge;
+  const auto& [gray, depth, reach_m, camera, line, range_m, one_sided, options, own] = edge;
   const auto elevation = [&](double v) {
     const Eigen::Vector3d ray = camera.ray(line.at(v));
     return ray.z() / ray.head<2>().norm();

@@ -17,6 +17,7 @@ struct SeenSpan {
 struct UprightEdge {
   const cv::Mat& gray;
   const DepthView& depth;
+  double reach_m;  ///< of depth in this frame
   const LevelledCamera& camera;
   const RefinedLine& line;
   std::optional<double> range_m;  ///< horizontal, of the edge, if known
