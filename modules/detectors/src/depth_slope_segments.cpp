@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <optional>
 
@@ -17,11 +18,15 @@ namespace {
 constexpr std::size_t kShortest = 3;  ///< columns of a piece
 constexpr std::size_t kStray = std::numeric_limits<std::size_t>::max();
 
+struct CostRange {
+  double least, most;
+};
+
 /// InverseLineFits::cost of pieces that end here, and what is before them. `starts`: the sums at
 /// which they begin, one after the other, `stride` apart.
 COLONNADE_VECTOR_KERNEL
-void costPieces(const InverseLineFits::Sums& end, const double* starts, std::size_t stride,
-                const double* before, std::size_t count, double* costs) {
+CostRange costPieces(const InverseLineFits::Sums& end, const double* starts, std::size_t stride,
+                     const double* before, std::size_t count, double* costs) {
   const InverseLineFits::Sums e = end;
   const double* __restrict w = starts;
   const double* __restrict s = starts + stride;
@@ -39,6 +44,25 @@ void costPieces(const InverseLineFits::Sums& end, const double* starts, std::siz
     const double cost = n_qq - n_sq * n_sq / n_ss;
     out[k] = cost_before[k] + ((n_ss > 0.0) & (cost > 0.0) ? cost : 0.0);
   }
+  using Lanes = double __attribute__((vector_size(32)));
+  CostRange range{out[0], out[0]};
+  Lanes least = range.least - Lanes{}, most = least;
+  std::size_t k = 0;
+  for (; k + 4 <= count; k += 4) {
+    Lanes cost;
+    std::memcpy(&cost, out + k, sizeof cost);
+    least = cost < least ? cost : least;
+    most = cost > most ? cost : most;
+  }
+  for (int i = 0; i < 4; ++i) {
+    range.least = std::min(range.least, least[i]);
+    range.most = std::max(range.most, most[i]);
+  }
+  for (; k < count; ++k) {
+    range.least = std::min(range.least, out[k]);
+    range.most = std::max(range.most, out[k]);
+  }
+  return range;
 }
 
 /// Starts of a piece, what their columns before sum up to and cost; number by number, for vectors.
@@ -62,14 +86,16 @@ class OpenStarts {
   /// The start from which a piece up to here costs least, if there is one.
   std::optional<Best> cheapest(const InverseLineFits::Sums& end) {
     if (count_ == 0) return std::nullopt;
-    costPieces(end, sums_.data(), most_, before_.data(), count_, costs_.data());
-    const auto least =
-        std::min_element(costs_.begin(), costs_.begin() + static_cast<std::ptrdiff_t>(count_));
-    return Best{starts_[static_cast<std::size_t>(least - costs_.begin())], *least};
+    const CostRange range =
+        costPieces(end, sums_.data(), most_, before_.data(), count_, costs_.data());
+    highest_ = range.most;
+    const auto least = std::find(costs_.begin(), costs_.end(), range.least);
+    return Best{starts_[static_cast<std::size_t>(least - costs_.begin())], range.least};
   }
 
   /// Those that cost so much or more as last asked for.
   void dropAbove(double cost) {
+    if (count_ == 0 || highest_ < cost) return;
     std::size_t kept = 0;
     while (kept < count_ && costs_[kept] < cost) ++kept;
     for (std::size_t k = kept; k < count_; ++k) {
@@ -88,6 +114,7 @@ class OpenStarts {
   std::vector<double> costs_, before_, sums_;
   std::size_t most_;
   std::size_t count_ = 0;
+  double highest_ = 0.0;  ///< of the costs
 };
 
 }  // namespace
