@@ -4,23 +4,52 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+
+#include "colonnade/base/vector_kernel.hpp"
+#include "nearest_pixel.hpp"
 
 namespace colonnade {
 
+namespace {
+
+constexpr std::size_t kMostRows = 96;
+constexpr int kWidth = 2 * AcrossProfile::kReach_px + 1;
+
+COLONNADE_VECTOR_KERNEL
+void addUp(const std::uint8_t* const* rows, std::size_t count, std::uint16_t* sums) {
+  std::uint16_t sum[kWidth] = {};
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint8_t* __restrict p = rows[i];
+    for (int k = 0; k < kWidth; ++k) sum[k] = static_cast<std::uint16_t>(sum[k] + p[k]);
+  }
+  std::copy_n(sum, kWidth, sums);
+}
+
+}  // namespace
+
 AcrossProfile::AcrossProfile(const cv::Mat& gray, const RefinedLine& line) {
-  constexpr double kMostRows = 96.0;
   const double step = std::max(1.0, (line.end - line.begin) / kMostRows);
+  std::array<const std::uint8_t*, kMostRows + 2> inside{};  // from the left end of the profile on
+  std::size_t count = 0;
   int rows = 0;
   for (double v = line.begin; v <= line.end; v += step) {
-    const auto u = static_cast<int>(std::lround(line.across(v))), row = static_cast<int>(v);
+    const int u = roundToInt(line.across(v)), row = static_cast<int>(v);
     if (row < 0 || row >= gray.rows) continue;
     if (u < 0 || u >= gray.cols) continue;
-    const auto* p = gray.ptr<unsigned char>(row);
+    const auto* p = gray.ptr<std::uint8_t>(row);
+    ++rows;
+    if (u >= kReach_px && u + kReach_px < gray.cols) {
+      inside[count++] = p + u - kReach_px;
+      continue;
+    }
     for (int k = -kReach_px; k <= kReach_px; ++k)
       sums_[static_cast<std::size_t>(k + kReach_px)] += p[std::clamp(u + k, 0, gray.cols - 1)];
-    ++rows;
   }
-  for (auto& sum : sums_) sum *= line.gradient_sign / std::max(1.0, static_cast<double>(rows));
+  std::array<std::uint16_t, kWidth> sums;
+  addUp(inside.data(), count, sums.data());
+  const double share = line.gradient_sign / std::max(1.0, static_cast<double>(rows));
+  for (std::size_t k = 0; k < sums_.size(); ++k) sums_[k] = (sums_[k] + sums[k]) * share;
 }
 
 double AcrossProfile::width() const {

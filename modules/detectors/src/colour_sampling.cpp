@@ -2,36 +2,59 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "colour_sampling.hpp"
 
-#include <cmath>
+#include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 
-namespace colonnade {
+#include "nearest_pixel.hpp"
 
-Eigen::Vector3f meanColourBeside(const Frame& frame, const RefinedLine& line, double begin,
-                                 double end, int side) {
-  const bool colour = frame.colour.type() == CV_8UC3 && !frame.colour.empty();
-  const cv::Mat& image = colour ? frame.colour : frame.gray;
-  constexpr int kSteps = 24;
-  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-  int count = 0;
+namespace colonnade {
+namespace {
+
+constexpr int kSteps = 24;
+constexpr std::array<int, 3> kDistances_px{3, 4, 5};
+
+template <int kChannels>
+BesideColours average(const cv::Mat& image, const RefinedLine& line, double begin, double end) {
+  std::array<std::array<int, kChannels>, 2> sums{};
+  std::array<int, 2> counts{};
+  const int across_end = line.steep ? image.cols : image.rows;
+  const int along_end = line.steep ? image.rows : image.cols;
+  const auto pixel = static_cast<std::ptrdiff_t>(image.elemSize());
+  const auto row = static_cast<std::ptrdiff_t>(image.step[0]);
+  const std::ptrdiff_t across_step = line.steep ? pixel : row;
+  const std::ptrdiff_t along_step = line.steep ? row : pixel;
   for (int i = 0; i <= kSteps; ++i) {
-    const double s = begin + (end - begin) * i / kSteps;
-    for (const int distance_px : {3, 4, 5}) {
-      Eigen::Vector2d p = line.at(s);
-      p[line.steep ? 0 : 1] += side * distance_px;
-      const auto u = static_cast<int>(std::lround(p.x()));
-      const auto v = static_cast<int>(std::lround(p.y()));
-      if (u < 0 || v < 0 || u >= image.cols || v >= image.rows) continue;
-      if (colour) {
-        const auto& pixel = image.at<cv::Vec3b>(v, u);
-        sum += Eigen::Vector3f(pixel[0], pixel[1], pixel[2]);
-      } else {
-        sum += Eigen::Vector3f::Constant(image.at<std::uint8_t>(v, u));
+    const double place = begin + (end - begin) * i / kSteps;
+    const int s = roundToInt(place), t = roundToInt(line.across(place));
+    if (s < 0 || s >= along_end) continue;
+    const std::uint8_t* const line_of_pixels = image.data + s * along_step;
+    for (std::size_t side = 0; side < 2; ++side) {
+      for (const int distance_px : kDistances_px) {
+        const int beside = side == 0 ? t - distance_px : t + distance_px;
+        if (beside < 0 || beside >= across_end) continue;
+        const std::uint8_t* const p = line_of_pixels + beside * across_step;
+        for (std::size_t c = 0; c < kChannels; ++c) sums[side][c] += p[c];
+        ++counts[side];
       }
-      ++count;
     }
   }
-  return count > 0 ? Eigen::Vector3f(sum / static_cast<float>(count)) : sum;
+  const auto mean = [&](std::size_t side) -> Eigen::Vector3f {
+    Eigen::Vector3f sum;
+    for (std::size_t c = 0; c < 3; ++c)
+      sum[static_cast<Eigen::Index>(c)] = static_cast<float>(sums[side][c % kChannels]);
+    return sum / static_cast<float>(std::max(counts[side], 1));
+  };
+  return {mean(0), mean(1)};
+}
+
+}  // namespace
+
+BesideColours coloursBeside(const Frame& frame, const RefinedLine& line, double begin, double end) {
+  const bool colour = frame.colour.type() == CV_8UC3 && !frame.colour.empty();
+  return colour ? average<3>(frame.colour, line, begin, end)
+                : average<1>(frame.gray, line, begin, end);
 }
 
 }  // namespace colonnade

@@ -9,9 +9,12 @@
 
 namespace colonnade {
 
-/// Mean colour (B, G, R; gray thrice without colour) of a narrow strip beside a line between two of
-/// its places, on the side of growing (+1) or falling (-1) u (steep lines) or v (flat lines).
-Eigen::Vector3f meanColourBeside(const Frame& frame, const RefinedLine& line, double begin,
-                                 double end, int side);
+/// Mean colours (B, G, R; gray thrice without colour) of narrow strips beside a line.
+struct BesideColours {
+  Eigen::Vector3f before = Eigen::Vector3f::Zero();  ///< where u (steep lines) or v (flat) is less
+  Eigen::Vector3f behind = Eigen::Vector3f::Zero();
+};
+/// Between two places of the line.
+BesideColours coloursBeside(const Frame& frame, const RefinedLine& line, double begin, double end);
 
 }  // namespace colonnade

@@ -3,92 +3,81 @@
 #include "colonnade/detectors/depth_profile.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <cstdint>
+#include <limits>
 #include <memory>
 
-#include "colonnade/detectors/depth_noise.hpp"
 #include "colonnade/detectors/levelled_camera.hpp"
-#include "statistics.hpp"
+#include "depth_column.hpp"
+#include "depth_slice_row.hpp"
 
 namespace colonnade {
 namespace {
-
-constexpr double kNearest_m = 0.2;
-constexpr double kFarthest_m = 15.0;
-
-struct Sample {
-  float z = 0.0F;       ///< forward, m
-  float offset = 0.0F;  ///< of the ray from the middle of its column, columns
-};
 
 /// All pixels, sorted into (column, band).
 class Bins {
  public:
   Bins(int columns, int rows)
-      : rows_(static_cast<std::size_t>(rows)),
+      : rows_(static_cast<std::size_t>(columnBlocks(rows) * kColumnBlock)),
         counts_(static_cast<std::size_t>(columns) * DepthProfile::kBands, 0),
-        values_(std::make_unique_for_overwrite<Sample[]>(counts_.size() * rows_)) {}
+        pixels_(std::make_unique_for_overwrite<Pixel[]>(counts_.size() * rows_)),
+        all_z_(DepthProfile::kBands * rows_),
+        all_offset_(all_z_.size()),
+        inverse_(all_z_.size()) {}
 
-  void add(int column, int band, Sample sample) {
-    const std::size_t bin =
-        static_cast<std::size_t>(column) * DepthProfile::kBands + static_cast<std::size_t>(band);
-    if (counts_[bin] < rows_) values_[bin * rows_ + counts_[bin]++] = sample;
+  void add(std::size_t bin, float z, float offset) {
+    if (counts_[bin] < rows_) pixels_[bin * rows_ + counts_[bin]++] = {z, offset};
   }
 
   /// `slope` and `slope_step`: of the middle of the column and from column to column.
   void summarise(DepthProfile::Column& column, int index, int min_pixels, double slope,
                  double slope_step) {
-    all_.clear();
+    std::size_t all = 0;  // with what fills the blocks of each band
+    int pixels = 0;
+    float least = std::numeric_limits<float>::max(), most = 0.0F;
     for (std::size_t band = 0; band < DepthProfile::kBands; ++band) {
       const std::size_t bin = static_cast<std::size_t>(index) * DepthProfile::kBands + band;
-      if (static_cast<int>(counts_[bin]) < min_pixels) continue;
-      const Sample* const first = values_.get() + bin * rows_;
-      band_.assign(first, first + counts_[bin]);
-      all_.insert(all_.end(), band_.begin(), band_.end());
-      const Middle middle = middleOf(band_);
+      const auto count = static_cast<int>(counts_[bin]);
+      if (count == 0 || count < min_pixels) continue;
+      float* const z = &all_z_[all];
+      float* const offset = &all_offset_[all];
+      double* const inverse = &inverse_[all];
+      const Pixel* const pixels_here = &pixels_[bin * rows_];
+      for (int i = 0; i < count; ++i) {
+        z[i] = pixels_here[i].z;
+        offset[i] = pixels_here[i].offset;
+      }
+      fillColumnBlock(z, offset, count);
+      const int blocks = columnBlocks(count);
+      inverseDepths(z, blocks, inverse);
+      const ColumnMiddle middle = middleOfColumn(z, inverse, offset, blocks, count);
       column.band_z[band] = middle.z;
       column.band_slope[band] = slope + slope_step * middle.offset;
+      least = std::min(least, middle.median);
+      most = std::max(most, middle.median);
+      all += static_cast<std::size_t>(blocks * kColumnBlock);
+      pixels += count;
     }
-    const Middle middle = middleOf(all_);
+    column.slope = slope;
+    if (pixels == 0) return;
+    // The median of all is between those of the parts.
+    const ColumnMiddle middle =
+        middleOfColumn(all_z_.data(), inverse_.data(), all_offset_.data(),
+                       static_cast<int>(all) / kColumnBlock, pixels, least, most);
     column.z = middle.z;
     column.slope = slope + slope_step * middle.offset;
     column.pixels = middle.pixels;
   }
 
  private:
-  struct Middle {
-    double z = 0.0;
-    double offset = 0.0;
-    int pixels = 0;
+  struct Pixel {
+    float z, offset;
   };
-
-  /// The mean inverse depth of what lies within three sigma of the median. Depth comes in steps of
-  /// disparity that are wider than its noise averaged over a column: a median would keep the steps.
-  /// An upright plane is straight in inverse depth over the offset, so the means of both lie on it.
-  Middle middleOf(const std::vector<Sample>& samples) {
-    if (samples.empty()) return {};
-    z_.resize(samples.size());
-    std::transform(samples.begin(), samples.end(), z_.begin(), [](const Sample& s) { return s.z; });
-    const double median = static_cast<double>(medianOf(z_));
-    const double reach = 3.0 * kinectDepthSigma(median);
-    double sum = 0.0, offsets = 0.0;
-    int pixels = 0;
-    for (const Sample& sample : samples) {
-      const auto z = static_cast<double>(sample.z);
-      if (std::abs(z - median) > reach) continue;
-      sum += 1.0 / z;
-      offsets += static_cast<double>(sample.offset);
-      ++pixels;
-    }
-    return {pixels / sum, offsets / pixels, pixels};
-  }
-
-  std::size_t rows_;
+  std::size_t rows_;  ///< of a bin, whole blocks
   std::vector<std::size_t> counts_;
-  std::unique_ptr<Sample[]> values_;
-  std::vector<Sample> band_;
-  std::vector<Sample> all_;
-  std::vector<float> z_;
+  std::unique_ptr<Pixel[]> pixels_;
+  std::vector<float> all_z_, all_offset_;  ///< of a column
+  std::vector<double> inverse_;
 };
 
 }  // namespace
@@ -111,32 +100,31 @@ DepthProfile makeDepthProfile(const Frame& frame, const DepthProfileOptions& opt
   const int columns = frame.depth_m.cols;
   const double middle = frame.camera.cx_px;
   profile.columns.resize(static_cast<std::size_t>(columns));
+  if (options.max_height_m <= options.min_height_m) return profile;
   Bins bins(columns, (frame.depth_m.rows + options.row_step - 1) / options.row_step);
-  const double band_height = (options.max_height_m - options.min_height_m) / DepthProfile::kBands;
-  if (band_height <= 0.0) return profile;
-  for (int v = options.row_step / 2; v < frame.depth_m.rows; v += options.row_step) {
-    const auto* depth_m = frame.depth_m.ptr<float>(v);
-    const Eigen::Vector3d first = camera.ray(0.0, v);
-    const Eigen::Vector3d step = camera.ray(1.0, v) - first;
-    // Of the ray of column u: up, ahead and to the right, each first + u * step.
-    const double ahead_first = forward.dot(first.head<2>());
-    const double ahead_step = forward.dot(step.head<2>());
-    const double right_first = right.dot(first.head<2>());
-    const double right_step = right.dot(step.head<2>());
-    for (int u = 0; u < columns; ++u) {
-      const auto depth = static_cast<double>(depth_m[u]);
-      if (!(depth > kNearest_m && depth < kFarthest_m)) continue;  // also NaN
-      const double height = camera.height() + depth * (first.z() + u * step.z());
-      if (height < options.min_height_m || height >= options.max_height_m) continue;
-      const double ahead = ahead_first + u * ahead_step;
-      if (ahead < 0.1) continue;
-      const double column = middle + profile.focal_px * (right_first + u * right_step) / ahead;
-      if (!(column > -0.5 && column < columns - 0.5)) continue;
-      const auto index = static_cast<int>(column + 0.5);
-      const int band = std::min(static_cast<int>((height - options.min_height_m) / band_height),
-                                DepthProfile::kBands - 1);
-      bins.add(index, band,
-               {static_cast<float>(depth * ahead), static_cast<float>(column - index)});
+  const SliceGrid grid{
+      camera.height(), options.min_height_m, options.max_height_m, DepthProfile::kBands, columns,
+      middle,          profile.focal_px};
+  std::vector<std::int32_t> bin(profile.columns.size());
+  std::vector<float> z(bin.size()), offset(bin.size());
+  std::vector<int> blocks(bin.size() / kPlacedTogether + 1);
+  std::vector<RayRow> rays;  // of the rows read
+  for (int v = options.row_step / 2; v < frame.depth_m.rows; v += options.row_step)
+    rays.emplace_back(camera, v, forward);
+  // Upright strips fill few bins at a time, which stay near.
+  constexpr int kStrip_px = 8 * kPlacedTogether;
+  for (int strip = 0; strip < columns; strip += kStrip_px) {
+    const int strip_end = std::min(strip + kStrip_px, columns);
+    int v = options.row_step / 2;
+    for (const RayRow& row : rays) {
+      const int count = placeRow(frame.depth_m.ptr<float>(v), strip, strip_end, row, grid,
+                                 {bin.data(), z.data(), offset.data(), blocks.data()});
+      for (int block = 0; block < count; ++block) {
+        const auto first = static_cast<std::size_t>(blocks[static_cast<std::size_t>(block)]);
+        for (std::size_t u = first; u < std::min(first + kPlacedTogether, bin.size()); ++u)
+          if (bin[u] >= 0) bins.add(static_cast<std::size_t>(bin[u]), z[u], offset[u]);
+      }
+      v += options.row_step;
     }
   }
   for (int i = 0; i < columns; ++i) {

@@ -5,8 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <limits>
+#include <optional>
 
+#include "colonnade/base/vector_kernel.hpp"
 #include "colonnade/detectors/depth_noise.hpp"
 
 namespace colonnade {
@@ -14,6 +17,105 @@ namespace {
 
 constexpr std::size_t kShortest = 3;  ///< columns of a piece
 constexpr std::size_t kStray = std::numeric_limits<std::size_t>::max();
+
+struct CostRange {
+  double least, most;
+};
+
+/// InverseLineFits::cost of pieces that end here, and what is before them. `starts`: the sums at
+/// which they begin, one after the other, `stride` apart.
+COLONNADE_VECTOR_KERNEL
+CostRange costPieces(const InverseLineFits::Sums& end, const double* starts, std::size_t stride,
+                     const double* before, std::size_t count, double* costs) {
+  const InverseLineFits::Sums e = end;
+  const double* __restrict w = starts;
+  const double* __restrict s = starts + stride;
+  const double* __restrict q = starts + 2 * stride;
+  const double* __restrict ss = starts + 3 * stride;
+  const double* __restrict sq = starts + 4 * stride;
+  const double* __restrict qq = starts + 5 * stride;
+  const double* __restrict cost_before = before;
+  double* __restrict out = costs;
+  for (std::size_t k = 0; k < count; ++k) {
+    const double n_w = e.w - w[k], n_s = e.s - s[k], n_q = e.q - q[k];
+    const double n_ss = e.ss - ss[k] - n_s * n_s / n_w;
+    const double n_sq = e.sq - sq[k] - n_s * n_q / n_w;
+    const double n_qq = e.qq - qq[k] - n_q * n_q / n_w;
+    const double cost = n_qq - n_sq * n_sq / n_ss;
+    out[k] = cost_before[k] + ((n_ss > 0.0) & (cost > 0.0) ? cost : 0.0);
+  }
+  using Lanes = double __attribute__((vector_size(32)));
+  CostRange range{out[0], out[0]};
+  Lanes least = range.least - Lanes{}, most = least;
+  std::size_t k = 0;
+  for (; k + 4 <= count; k += 4) {
+    Lanes cost;
+    std::memcpy(&cost, out + k, sizeof cost);
+    least = cost < least ? cost : least;
+    most = cost > most ? cost : most;
+  }
+  for (int i = 0; i < 4; ++i) {
+    range.least = std::min(range.least, least[i]);
+    range.most = std::max(range.most, most[i]);
+  }
+  for (; k < count; ++k) {
+    range.least = std::min(range.least, out[k]);
+    range.most = std::max(range.most, out[k]);
+  }
+  return range;
+}
+
+/// Starts of a piece, what their columns before sum up to and cost; number by number, for vectors.
+class OpenStarts {
+ public:
+  explicit OpenStarts(std::size_t most)
+      : starts_(most), costs_(most), before_(most), sums_(kSums * most), most_(most) {}
+
+  void add(std::size_t start, const InverseLineFits::Sums& sums, double cost_before) {
+    starts_[count_] = start;
+    before_[count_] = cost_before;
+    const double all[kSums] = {sums.w, sums.s, sums.q, sums.ss, sums.sq, sums.qq};
+    for (std::size_t i = 0; i < kSums; ++i) sums_[i * most_ + count_] = all[i];
+    ++count_;
+  }
+
+  struct Best {
+    std::size_t start;
+    double cost;  ///< of the piece and all before
+  };
+  /// The start from which a piece up to here costs least, if there is one.
+  std::optional<Best> cheapest(const InverseLineFits::Sums& end) {
+    if (count_ == 0) return std::nullopt;
+    const CostRange range =
+        costPieces(end, sums_.data(), most_, before_.data(), count_, costs_.data());
+    highest_ = range.most;
+    const auto least = std::find(costs_.begin(), costs_.end(), range.least);
+    return Best{starts_[static_cast<std::size_t>(least - costs_.begin())], range.least};
+  }
+
+  /// Those that cost so much or more as last asked for.
+  void dropAbove(double cost) {
+    if (count_ == 0 || highest_ < cost) return;
+    std::size_t kept = 0;
+    while (kept < count_ && costs_[kept] < cost) ++kept;
+    for (std::size_t k = kept; k < count_; ++k) {
+      if (!(costs_[k] < cost)) continue;
+      starts_[kept] = starts_[k];
+      before_[kept] = before_[k];
+      for (std::size_t i = 0; i < kSums; ++i) sums_[i * most_ + kept] = sums_[i * most_ + k];
+      ++kept;
+    }
+    count_ = kept;
+  }
+
+ private:
+  static constexpr std::size_t kSums = 6;
+  std::vector<std::size_t> starts_;
+  std::vector<double> costs_, before_, sums_;
+  std::size_t most_;
+  std::size_t count_ = 0;
+  double highest_ = 0.0;  ///< of the costs
+};
 
 }  // namespace
 
@@ -121,23 +223,20 @@ std::vector<InverseLine> straightPieces(const InverseColumns& columns, double pi
   const InverseLineFits fits(columns);
   std::vector<double> least(n + 1, 0.0);          // of the columns before
   std::vector<std::size_t> begin(n + 1, kStray);  // of the piece that ends there
-  std::vector<std::size_t> open;                  // where the last piece may begin
-  std::vector<double> costs;
+  OpenStarts open(n);                             // where the last piece may begin
   for (std::size_t end = 1; end <= n; ++end) {
     least[end] = least[end - 1] + stray_cost;
-    if (end >= kShortest) open.push_back(end - kShortest);
-    std::size_t kept = 0;
-    // A start that is worse by what two stray columns cost can never win again.
-    costs.assign(open.size(), 0.0);
-    for (std::size_t k = 0; k < open.size(); ++k) {
-      costs[k] = least[open[k]] + fits.cost(open[k], end);
-      if (costs[k] + piece_cost >= least[end]) continue;
-      least[end] = costs[k] + piece_cost;
-      begin[end] = open[k];
+    if (end >= kShortest) {
+      const std::size_t start = end - kShortest;
+      open.add(start, fits.sumsBefore(start), least[start]);
     }
-    for (std::size_t k = 0; k < open.size(); ++k)
-      if (costs[k] < least[end] + 2.0 * stray_cost) open[kept++] = open[k];
-    open.resize(kept);
+    if (const auto best = open.cheapest(fits.sumsBefore(end));
+        best && best->cost + piece_cost < least[end]) {
+      least[end] = best->cost + piece_cost;
+      begin[end] = best->start;
+    }
+    // A start that is worse by what two stray columns cost can never win again.
+    open.dropAbove(least[end] + 2.0 * stray_cost);
   }
   std::vector<InverseLine> pieces;
   for (std::size_t end = n; end > 0;) {

@@ -52,13 +52,15 @@ class InverseLineFits {
   explicit InverseLineFits(const InverseColumns& columns);
   InverseLine fit(std::size_t first, std::size_t last) const;
   double cost(std::size_t first, std::size_t last) const;
+  /// Sums over columns, weighted by 1 / variance.
+  struct Sums {
+    double w = 0.0, s = 0.0, q = 0.0, ss = 0.0, sq = 0.0, qq = 0.0;
+  };
+  const Sums& sumsBefore(std::size_t column) const { return sums_[column]; }
   /// Of all columns: what their variances must be multiplied by, known before a line is fitted.
   void assumeScale(double scale) { scale_ = scale; }
 
  private:
-  struct Sums {
-    double w = 0.0, s = 0.0, q = 0.0, ss = 0.0, sq = 0.0, qq = 0.0;
-  };
   Sums between(std::size_t first, std::size_t last) const;
   std::vector<Sums> sums_;
   double scale_ = 1.0;

@@ -81,7 +81,7 @@ bool isNearVertical(const LevelledCamera& camera, const RefinedLine& line, doubl
   return std::abs(along.dot(down)) > std::cos(tolerance);
 }
 
-Detection toDetection(const Frame& frame, const LevelledCamera& camera, const RefinedLine& line,
+Detection toDetection(const LevelledCamera& camera, const RefinedLine& line,
                       const FloorLine& floor_line) {
   Detection detection;
   detection.measurement.kind = LandmarkKind::kFloorEdge;
@@ -98,9 +98,15 @@ Detection toDetection(const Frame& frame, const LevelledCamera& camera, const Re
   const Eigen::Vector2d middle = line.at(0.5 * (floor_line.begin + floor_line.end));
   const int far = across.dot(camera.downDirection(middle)) < 0.0 ? 1 : -1;
   detection.appearance.gradient_sign = far * line.gradient_sign;
-  detection.appearance.left = meanColourBeside(frame, line, floor_line.begin, floor_line.end, -far);
-  detection.appearance.right = meanColourBeside(frame, line, floor_line.begin, floor_line.end, far);
   return detection;
+}
+
+void addColours(const Frame& frame, const RefinedLine& line, const FloorLine& floor_line,
+                Detection& detection) {
+  const BesideColours colours = coloursBeside(frame, line, floor_line.begin, floor_line.end);
+  const bool far_is_behind = detection.appearance.gradient_sign == line.gradient_sign;
+  detection.appearance.left = far_is_behind ? colours.before : colours.behind;
+  detection.appearance.right = far_is_behind ? colours.behind : colours.before;
 }
 
 double length(const Detection& detection) {
@@ -240,11 +246,12 @@ Detections FloorEdgeDetector::detect(const Frame& frame, const RefinedLines& lin
     if (isNearVertical(camera, line, options_.from_vertical)) continue;
     const auto floor_line = mapToFloor(camera, line, options_, geometry_);
     if (!floor_line) continue;
-    Detection detection = toDetection(frame, camera, line, *floor_line);
+    Detection detection = toDetection(camera, line, *floor_line);
     if ((detection.b_px - detection.a_px).norm() < options_.min_length_px) continue;
     if (length(detection) < options_.min_length_m) continue;
     const WallVotes votes = askDepth(depth, camera, *floor_line, options_, geometry_);
     detection.refusal = reasonToRefuse(votes, *floor_line, !depth.empty(), options_);
+    if (detection.accepted()) addColours(frame, line, *floor_line, detection);
     found.push_back(std::move(detection));
   }
   return contactEdges(std::move(found), depth, camera, options_);

@@ -3,6 +3,7 @@
 #include "colonnade/detectors/frame_check.hpp"
 
 #include <algorithm>
+#include <opencv2/core.hpp>
 
 namespace colonnade {
 namespace {
@@ -31,10 +32,7 @@ double shareOfEdges(const cv::Mat& edges) {
   long count = 0;
   long all = 0;
   for (int v = 0; v < edges.rows; v += kStep_px) {
-    const auto* row = edges.ptr<unsigned char>(v);
-    int in_row = 0;
-    for (int u = 0; u < edges.cols; ++u) in_row += row[u] != 0 ? 1 : 0;
-    count += in_row;
+    count += cv::countNonZero(edges.row(v));
     all += edges.cols;
   }
   return static_cast<double>(count) / static_cast<double>(all);

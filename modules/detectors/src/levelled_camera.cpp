@@ -15,6 +15,13 @@ LevelledCamera::LevelledCamera(const Frame& frame)
   if (!camera_.isCalibrated()) {
     throw Error("detectors: the frame's camera has no focal length; give a calibration");
   }
+  setRays();
+}
+
+void LevelledCamera::setRays() {
+  ray_per_u_ = R_robot_camera_.col(0) / camera_.fx_px;
+  ray_per_v_ = R_robot_camera_.col(1) / camera_.fy_px;
+  ray_at_0_ = R_robot_camera_ * camera_.ray(0.0, 0.0);
 }
 
 LevelledCamera LevelledCamera::disturbed(const Eigen::Vector2d& tilt, double height_m) const {
@@ -23,6 +30,7 @@ LevelledCamera LevelledCamera::disturbed(const Eigen::Vector2d& tilt, double hei
                           Eigen::AngleAxisd(tilt.y(), Eigen::Vector3d::UnitY()).toRotationMatrix() *
                           R_robot_camera_;
   other.p_robot_camera_.z() += height_m;
+  other.setRays();
   return other;
 }
 

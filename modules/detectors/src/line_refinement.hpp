@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
+
 #include "colonnade/detectors/refined_line.hpp"
 #include "line_walker.hpp"
 
@@ -11,16 +13,16 @@ namespace colonnade {
 class LineRefiner {
  public:
   LineRefiner(const cv::Mat& gray, const cv::Mat& edges, bool steep,
-              const LineRefinementOptions& options)
-      : walker_(gray, edges, steep), steep_(steep), options_(options) {}
+              const LineRefinementOptions& options);
 
   /// Appends the lines that edge pixels beside the guess support.
   void refine(const Straight& guess, RefinedLines& lines);
 
  private:
+  /// `samples` keeps those that agree.
+  std::optional<RefinedLine> fitRun(Samples& samples, int sign) const;
   /// The line, or its parts where it is broken.
-  void appendStraightParts(const RefinedLine& line, const Samples& samples,
-                           RefinedLines& lines) const;
+  void appendStraightParts(const RefinedLine& line, SampleSpan samples, RefinedLines& lines) const;
 
   Walker walker_;
   bool steep_;

@@ -7,6 +7,7 @@
 #include <deque>
 
 #include "cell_regions.hpp"
+#include "colonnade/base/vector_kernel.hpp"
 
 namespace colonnade {
 namespace {
@@ -14,23 +15,44 @@ namespace {
 constexpr double kFloor_m = 0.08;  ///< what is lower belongs to the floor
 constexpr float kSurfaceStep_m = 0.12F;
 
-/// Where a point falls in the other view.
-struct Hit {
-  int column;
-  int row;
-  double depth_m;
+/// A view from another one: where the cells of a row stand there.
+struct RowElsewhere {
+  // Of the viewing rays of the row's cells in the other camera's axes: first + column * step.
+  double first[3], step[3];
+  double p_other[3];  ///< this camera's centre, in the other's axes
+};
+struct Places {
+  std::int32_t* cell;  ///< of the other view; negative: outside or not measured
+  double* depth_m;     ///< there
 };
 
-std::optional<Hit> project(const DepthCells& cells, const Eigen::Vector3d& p_camera) {
+COLONNADE_VECTOR_KERNEL
+void placeCells(const float* near_m, int columns, const RowElsewhere& row, const DepthCells& other,
+                const Places& places) {
   constexpr double kNearest_m = 0.2;
-  if (p_camera.z() < kNearest_m) return std::nullopt;
-  const double u = cells.camera.cx_px + cells.camera.fx_px * p_camera.x() / p_camera.z();
-  const double v = cells.camera.cy_px + cells.camera.fy_px * p_camera.y() / p_camera.z();
-  if (!(u > -0.5 && v > -0.5 && u < cells.columns * cells.cell_px - 0.5 &&
-        v < cells.rows * cells.cell_px - 0.5))
-    return std::nullopt;
-  return Hit{static_cast<int>(u + 0.5) / cells.cell_px, static_cast<int>(v + 0.5) / cells.cell_px,
-             p_camera.z()};
+  const float* __restrict depths = near_m;
+  std::int32_t* __restrict cells = places.cell;
+  double* __restrict depths_there = places.depth_m;
+  const RowElsewhere r = row;
+  const PinholeCamera camera = other.camera;
+  const double width = other.columns * other.cell_px - 0.5;
+  const double height = other.rows * other.cell_px - 0.5;
+  const double cell_px = other.cell_px;
+  const std::int32_t stride = other.columns;
+  for (int column = 0; column < columns; ++column) {
+    const auto depth = static_cast<double>(depths[column]);
+    const double x = depth * (r.first[0] + column * r.step[0]) + r.p_other[0];
+    const double y = depth * (r.first[1] + column * r.step[1]) + r.p_other[1];
+    const double z = depth * (r.first[2] + column * r.step[2]) + r.p_other[2];
+    const double u = camera.cx_px + camera.fx_px * x / z;
+    const double v = camera.cy_px + camera.fy_px * y / z;
+    const bool inside =
+        (depth > 0.0) & (z >= kNearest_m) & (u > -0.5) & (v > -0.5) & (u < width) & (v < height);
+    const auto there_column = static_cast<std::int32_t>(inside ? (u + 0.5) / cell_px : 0.0);
+    const auto there_row = static_cast<std::int32_t>(inside ? (v + 0.5) / cell_px : 0.0);
+    cells[column] = inside ? there_row * stride + there_column : -1;
+    depths_there[column] = z;
+  }
 }
 
 /// Calls take(cell of `from`, where it falls in `to`, depth there) for every cell of `from` whose
@@ -39,21 +61,29 @@ template <class Take>
 std::size_t eachThrough(const DepthGlimpse& from, const DepthGlimpse& to,
                         const SegmentationOptions& options, Take&& take) {
   const Eigen::Isometry3d T_to_from = to.T_world_camera.inverse() * from.T_world_camera;
+  std::vector<std::int32_t> cells(static_cast<std::size_t>(from.cells.columns));
+  std::vector<double> depths(cells.size());
   std::size_t compared = 0;
   for (int row = 0; row < from.cells.rows; ++row) {
-    for (int column = 0; column < from.cells.columns; ++column) {
-      const std::size_t cell = from.cells.index(column, row);
-      const float z = from.cells.near_m[cell];
-      if (z == DepthCells::kNone) continue;
-      const Eigen::Vector3d p = T_to_from * (static_cast<double>(z) * from.cells.ray(column, row));
-      const auto hit = project(to.cells, p);
-      if (!hit) continue;
-      const std::size_t there = to.cells.index(hit->column, hit->row);
-      const double seen_m = static_cast<double>(to.cells.around_m[there]);
+    const Eigen::Vector3d first = T_to_from.linear() * from.cells.ray(0, row);
+    const Eigen::Vector3d step = T_to_from.linear() * from.cells.ray(1, row) - first;
+    RowElsewhere elsewhere;
+    for (int axis = 0; axis < 3; ++axis) {
+      elsewhere.first[axis] = first[axis];
+      elsewhere.step[axis] = step[axis];
+      elsewhere.p_other[axis] = T_to_from.translation()[axis];
+    }
+    placeCells(&from.cells.near_m[from.cells.index(0, row)], from.cells.columns, elsewhere,
+               to.cells, {cells.data(), depths.data()});
+    for (std::size_t column = 0; column < cells.size(); ++column) {
+      if (cells[column] < 0) continue;
+      const auto there = static_cast<std::size_t>(cells[column]);
       if (to.cells.around_m[there] == DepthCells::kNone) continue;
       ++compared;
+      const auto seen_m = static_cast<double>(to.cells.around_m[there]);
       const double tolerance = options.tolerance_m + options.tolerance_per_m2 * seen_m * seen_m;
-      if (seen_m > hit->depth_m + tolerance) take(cell, there, hit->depth_m);
+      if (seen_m > depths[column] + tolerance)
+        take(from.cells.index(0, row) + column, there, depths[column]);
     }
   }
   return compared;

@@ -25,30 +25,36 @@ struct Bearing {
   double variance = 0.0;
 };
 
-/// Direction of the vertical plane through the optical centre and one pixel of the line: equation
-/// 13 of the 2015 thesis for a levelled camera. A tilt error t turns it by t * tan(elevation).
-Bearing bearingAt(const LevelledCamera& camera, const RefinedLine& line, double s,
-                  const GeometryOptions& geometry) {
+/// Variance of the bearing through one pixel of the line: a pixel aside turns it, and a tilt error
+/// t by t * tan(elevation).
+double bearingVariance(const LevelledCamera& camera, const RefinedLine& line, double s,
+                       const GeometryOptions& geometry) {
   const Eigen::Vector3d here = camera.ray(line.at(s));
   const Eigen::Vector3d beside = camera.ray(line.at(s) + Eigen::Vector2d(1.0, 0.0));
-  const double angle = std::atan2(here.y(), here.x());
-  const double per_pixel = wrapAngle(std::atan2(beside.y(), beside.x()) - angle);
+  const double per_pixel = std::atan2(here.x() * beside.y() - here.y() * beside.x(),
+                                      here.x() * beside.x() + here.y() * beside.y());
   const double pixels = line.variance(s) + geometry.line_sigma_px * geometry.line_sigma_px;
   const double tilt = geometry.tilt_sigma * here.z() / here.head<2>().norm();
-  return {angle, per_pixel * per_pixel * pixels + tilt * tilt};
+  return per_pixel * per_pixel * pixels + tilt * tilt;
 }
 
-/// The place of the extent where the bearing is best known: near the horizon and near the middle.
+/// Direction of the vertical plane through the optical centre and the line: equation 13 of the 2015
+/// thesis for a levelled camera. It is taken from the pixel of the extent where it is best known:
+/// near the horizon and near the middle.
 Bearing bestBearing(const LevelledCamera& camera, const RefinedLine& line,
                     const GeometryOptions& geometry) {
   constexpr int kPlaces = 16;
-  Bearing best = bearingAt(camera, line, line.begin, geometry);
+  double best = line.begin;
+  double least = bearingVariance(camera, line, best, geometry);
   for (int i = 1; i <= kPlaces; ++i) {
     const double s = line.begin + (line.end - line.begin) * i / kPlaces;
-    const Bearing bearing = bearingAt(camera, line, s, geometry);
-    if (bearing.variance < best.variance) best = bearing;
+    const double variance = bearingVariance(camera, line, s, geometry);
+    if (variance >= least) continue;
+    least = variance;
+    best = s;
   }
-  return best;
+  const Eigen::Vector3d ray = camera.ray(line.at(best));
+  return {std::atan2(ray.y(), ray.x()), least};
 }
 
 RefinedLines candidatesAmong(const RefinedLines& lines, const LevelledCamera& camera,
@@ -131,6 +137,7 @@ Detections PillarDetector::detect(const Frame& frame, const RefinedLines& given)
   if (frame.gray.empty()) return detections;
   const LevelledCamera camera(frame);
   const DepthView depth(frame, camera);
+  const double reach_m = depth.farthest_m();
   RefinedLines lines = given;
   const RefinedLines faint = faintUprights(frame.gray, camera, options_, lines_);
   lines.insert(lines.end(), faint.begin(), faint.end());
@@ -148,28 +155,26 @@ Detections PillarDetector::detect(const Frame& frame, const RefinedLines& given)
     detection.a_px = line.at(line.begin);
     detection.b_px = line.at(line.end);
     detection.appearance.gradient_sign = line.gradient_sign;
-    detection.appearance.left = meanColourBeside(frame, line, line.begin, line.end, -1);
-    detection.appearance.right = meanColourBeside(frame, line, line.begin, line.end, 1);
     detection.refusal = reasonToRefuse(range.verdict, line.length(), options_);
     if (detection.accepted() && common_lean.known() &&
         std::abs(leanOf(camera, line) - common_lean.of(line)) >
             options_.parallel_tolerance + 2.0 * std::sqrt(line.covariance(1, 1)))
       detection.refusal = "leans over";
+    const AcrossProfile& profile = profiles[i];
+    if (detection.accepted() && profile.width() > common_width.limit())
+      detection.refusal = "a shade without an edge";
     if (detection.accepted()) {
-      const AcrossProfile& profile = profiles[i];
       const auto seen_m = range.range_m > 0.0 ? std::optional(range.range_m) : std::nullopt;
-      const SeenSpan span =
-          seenSpan(frame.gray, depth, camera, line, lines, seen_m, range.one_sided, options_);
-      detection.refusal = profile.width() > common_width.limit()
-                              ? "a shade without an edge"
-                              : reasonAgainstSpan(frame.gray, depth, camera, line, span, seen_m,
-                                                  range.one_sided, options_);
+      const UprightEdge edge{frame.gray,      depth,    reach_m,
+                             camera,          line,     seen_m,
+                             range.one_sided, options_, contrastOf(frame.gray, line)};
+      const SeenSpan span = seenSpan(edge, lines);
+      detection.refusal = reasonAgainstSpan(edge, span);
       detection.on_surface =
-          (range.smooth || range.one_sided || !seen_m) &&
+          detection.accepted() && (range.smooth || range.one_sided || !seen_m) &&
           profile.isThinLine(thinWidth(frame, range)) &&
           !(seen_m && reachesFloor(camera, line.at(span.bottom), *seen_m, options_) &&
-            !hasGapInside(frame.gray, depth, camera, line, span, *seen_m, range.one_sided,
-                          options_));
+            !hasGapInside(edge, span));
     }
     if (detection.accepted() &&
         std::any_of(detections.begin(), detections.end(), [&](const Detection& longer) {
@@ -177,7 +182,12 @@ Detections PillarDetector::detect(const Frame& frame, const RefinedLines& given)
         })) {
       continue;
     }
-    detections.push_back(detection);
+    if (detection.accepted()) {
+      const BesideColours colours = coloursBeside(frame, line, line.begin, line.end);
+      detection.appearance.left = colours.before;
+      detection.appearance.right = colours.behind;
+    }
+    detections.push_back(std::move(detection));
   }
   refuseFalseEdges(detections, shade_);
   pairPillars(detections, options_, shade_);

@@ -3,10 +3,13 @@
 #include "pillar_seeds.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <cstdlib>
-#include <opencv2/core/hal/intrin.hpp>
+#include <cstdint>
+#include <cstring>
+#include <vector>
 
+#include "colonnade/base/vector_kernel.hpp"
 #include "line_refinement.hpp"
 
 namespace colonnade {
@@ -17,8 +20,21 @@ constexpr int kRows = 2 * kHalf + 1;
 constexpr std::size_t kMostSeeds = 80;
 constexpr std::uint8_t kRising = 1, kFalling = 5;  ///< edge codes of sectors 0 and 4
 
-using Lanes16 = cv::v_uint16x8;
-constexpr int kLanes = Lanes16::nlanes;
+/// Goes one row down with the sums of the rows around: one comes in, one goes out.
+COLONNADE_VECTOR_KERNEL
+void moveDown(const std::uint8_t* in, const std::uint8_t* out, int columns, std::uint16_t* sums,
+              std::uint8_t* mean) {
+  constexpr std::uint32_t kReciprocal = 0xffff / kRows + 1;  // exact for sums of so few
+  const std::uint8_t* __restrict below = in;
+  const std::uint8_t* __restrict above = out;
+  std::uint16_t* __restrict sum = sums;
+  std::uint8_t* __restrict to = mean;
+  for (int u = 0; u < columns; ++u) {
+    const auto s = static_cast<std::uint16_t>(sum[u] + below[u] - above[u]);
+    sum[u] = s;
+    to[u] = static_cast<std::uint8_t>(s * kReciprocal >> 16);
+  }
+}
 
 /// Every pixel the mean of those above and below it. CV_8UC1 in and out.
 cv::Mat averagedDown(const cv::Mat& gray) {
@@ -26,57 +42,52 @@ cv::Mat averagedDown(const cv::Mat& gray) {
   for (const auto& border : {cv::Range(0, kHalf), cv::Range(gray.rows - kHalf, gray.rows)})
     gray.rowRange(border).copyTo(mean.rowRange(border));
   std::vector<std::uint16_t> sum(static_cast<std::size_t>(gray.cols), kRows / 2);
-  const Lanes16 reciprocal = cv::v_setall_u16(0xffff / kRows + 1);  // exact for sums of so few
-  for (int row = 0; row < gray.rows; ++row) {
-    const auto* in = gray.ptr<std::uint8_t>(row);
-    const auto* out = row >= kRows ? gray.ptr<std::uint8_t>(row - kRows) : nullptr;
-    auto* to = row < kRows - 1 ? nullptr : mean.ptr<std::uint8_t>(row - kHalf);
-    int u = 0;
-    for (; u + kLanes <= gray.cols; u += kLanes) {
-      Lanes16 sums = cv::v_load(&sum[static_cast<std::size_t>(u)]) + cv::v_load_expand(in + u);
-      if (out) sums = sums - cv::v_load_expand(out + u);
-      cv::v_store(&sum[static_cast<std::size_t>(u)], sums);
-      if (to) cv::v_pack_store(to + u, cv::v_mul_hi(sums, reciprocal));
-    }
-    for (; u < gray.cols; ++u) {
-      auto& s = sum[static_cast<std::size_t>(u)];
-      s = static_cast<std::uint16_t>(s + in[u] - (out ? out[u] : 0));
-      if (to) to[u] = static_cast<std::uint8_t>(s / kRows);
-    }
-  }
+  const std::vector<std::uint8_t> nothing(sum.size(), 0);
+  std::vector<std::uint8_t> unused(sum.size());
+  for (int row = 0; row < gray.rows; ++row)
+    moveDown(gray.ptr<std::uint8_t>(row),
+             row >= kRows ? gray.ptr<std::uint8_t>(row - kRows) : nothing.data(), gray.cols,
+             sum.data(), row < kRows - 1 ? unused.data() : mean.ptr<std::uint8_t>(row - kHalf));
   return mean;
 }
 
-/// across[u] = gray levels to the right of u less those to its left, for 2 <= u < columns - 2.
-void differences(const std::uint8_t* p, int columns, std::vector<std::int16_t>& across) {
-  int u = 2;
-  const auto at = [p](int i) { return cv::v_reinterpret_as_s16(cv::v_load_expand(p + i)); };
-  for (; u + kLanes + 2 <= columns; u += kLanes)
-    cv::v_store(&across[static_cast<std::size_t>(u)],
-                at(u + 1) + at(u + 2) - at(u - 1) - at(u - 2));
-  for (; u < columns - 2; ++u)
-    across[static_cast<std::size_t>(u)] =
-        static_cast<std::int16_t>(p[u + 1] + p[u + 2] - p[u - 1] - p[u - 2]);
+/// Edge codes where the difference across is `least` or more and the greatest beside. `across` has
+/// room for a row.
+COLONNADE_VECTOR_KERNEL
+void findRidges(const std::uint8_t* row, int columns, int least, std::int16_t* across,
+                std::uint8_t* codes) {
+  constexpr int kBorder = 3;
+  const std::uint8_t* __restrict p = row;
+  std::int16_t* __restrict a = across;
+  std::uint8_t* __restrict code = codes;
+  for (int u = kBorder - 1; u < columns - kBorder + 1; ++u)
+    a[u] = static_cast<std::int16_t>(p[u + 1] + p[u + 2] - p[u - 1] - p[u - 2]);
+  const auto enough = static_cast<std::int16_t>(least);
+  const auto magnitude = [](std::int16_t x) { return static_cast<std::int16_t>(x < 0 ? -x : x); };
+  for (int u = 0; u < kBorder; ++u) code[u] = code[columns - 1 - u] = 0;
+  for (int u = kBorder; u < columns - kBorder; ++u) {
+    const std::int16_t here = magnitude(a[u]);
+    const bool ridge =
+        (here >= enough) & (here > magnitude(a[u - 1])) & (here >= magnitude(a[u + 1]));
+    const std::uint8_t way = a[u] > 0 ? kRising : kFalling;
+    code[u] = ridge ? way : std::uint8_t{0};
+  }
 }
 
-/// Calls take(u) where the magnitude is `least` or more and the greatest beside.
+/// Calls take(u) for each pixel of a row that has one of the two codes.
 template <class Take>
-void eachRidge(const std::vector<std::int16_t>& across, int least, Take&& take) {
-  const int columns = static_cast<int>(across.size());
-  const auto magnitude = [&](int u) { return std::abs(across[static_cast<std::size_t>(u)]); };
-  const auto consider = [&](int u) {
-    if (magnitude(u) >= least && magnitude(u) > magnitude(u - 1) &&
-        magnitude(u) >= magnitude(u + 1))
-      take(u);
-  };
-  const auto below = cv::v_setall_u16(static_cast<std::uint16_t>(least - 1));
-  int u = 3;
-  for (; u + kLanes <= columns - 3; u += kLanes) {
-    const auto here = cv::v_abs(cv::v_load(&across[static_cast<std::size_t>(u)]));
-    if (!cv::v_check_any(here > below)) continue;
-    for (int i = u; i < u + kLanes; ++i) consider(i);
+void eachEdge(const std::uint8_t* codes, int columns, Take&& take) {
+  static_assert(kRising % 2 == 1 && kFalling % 2 == 1);
+  constexpr std::uint64_t kLowest = 0x0101010101010101;  // bits of all bytes
+  constexpr int kWord = 8;
+  int u = 0;
+  for (; u + kWord <= columns; u += kWord) {
+    std::uint64_t word;
+    std::memcpy(&word, codes + u, sizeof word);
+    for (word &= kLowest; word != 0; word &= word - 1) take(u + std::countr_zero(word) / 8);
   }
-  for (; u < columns - 3; ++u) consider(u);
+  for (; u < columns; ++u)
+    if (codes[u] != 0) take(u);
 }
 
 /// Where upright lines cross the middle row, in bins of a pixel.
@@ -141,19 +152,17 @@ RefinedLines faintUprights(const cv::Mat& gray, const LevelledCamera& camera,
                            const PillarOptions& options, const LineRefinementOptions& lines) {
   if (options.faint_contrast <= 0.0 || gray.cols < 32 || gray.rows < 2 * kRows) return {};
   const cv::Mat mean = averagedDown(gray);
-  cv::Mat edges = cv::Mat::zeros(gray.size(), CV_8UC1);
+  cv::Mat edges(gray.size(), CV_8UC1);
+  for (const auto& border : {cv::Range(0, kHalf), cv::Range(gray.rows - kHalf, gray.rows)})
+    edges.rowRange(border).setTo(0);
   Votes votes(gray, camera);
   const int least = std::max(1, static_cast<int>(std::lround(2.0 * options.faint_contrast)));
-  std::vector<std::int16_t> across(static_cast<std::size_t>(gray.cols), 0);
+  std::vector<std::int16_t> across(static_cast<std::size_t>(gray.cols));
   for (int row = kHalf; row < gray.rows - kHalf; ++row) {
-    differences(mean.ptr<std::uint8_t>(row), gray.cols, across);
-    auto* code = edges.ptr<std::uint8_t>(row);
+    auto* const code = edges.ptr<std::uint8_t>(row);
+    findRidges(mean.ptr<std::uint8_t>(row), gray.cols, least, across.data(), code);
     votes.startRow(row);
-    eachRidge(across, least, [&](int u) {
-      const bool rising = across[static_cast<std::size_t>(u)] > 0;
-      code[u] = rising ? kRising : kFalling;
-      votes.add(u, rising);
-    });
+    eachEdge(code, gray.cols, [&](int u) { votes.add(u, code[u] == kRising); });
   }
   const double shortest = std::max(lines.min_length_px, options.min_length_px);
   LineRefiner refiner(mean, edges, true, lines);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "colonnade/detectors/depth_noise.hpp"
+#include "nearest_pixel.hpp"
 #include "statistics.hpp"
 
 namespace colonnade {
@@ -23,6 +24,10 @@ constexpr double kFar_m = 1e3;
 constexpr double kLeastContrast = 4.5;  // gray levels, median: more than noise and shades leave
 constexpr double kLeastShare = 0.15;    // of its own contrast that an edge keeps where it goes on
 
+std::size_t rowsBetween(double top, double bottom) {
+  return bottom >= top ? static_cast<std::size_t>(bottom - top) + 1 : 0;
+}
+
 struct Evidence {
   int seen = 0;
   int ended = 0;
@@ -30,10 +35,9 @@ struct Evidence {
 
   /// may_turn: before a skirting board the contrast may turn about and become weaker, and the
   /// corner is still there.
-  bool endedWithoutTrace(int own_contrast, bool may_turn) const {
+  bool endedWithoutTrace(int own_contrast, bool may_turn) && {
     if (seen < kLeastRows || 5 * ended <= 3 * seen) return false;
-    std::vector<int> left = contrasts;
-    const int median = medianOf(left);
+    const int median = medianOf(contrasts);
     return may_turn ? std::abs(median) < kLeastContrast
                     : median < std::max(kLeastContrast, kLeastShare * own_contrast);
   }
@@ -41,33 +45,24 @@ struct Evidence {
 
 /// Gray levels across the line in the sense of its gradient.
 std::optional<int> contrastAt(const cv::Mat& gray, const RefinedLine& line, double v) {
-  const auto u = static_cast<int>(std::lround(line.across(v))), row = static_cast<int>(v);
+  const int u = roundToInt(line.across(v)), row = static_cast<int>(v);
   if (u < 3 || u + 3 >= gray.cols || row < 0 || row >= gray.rows) return std::nullopt;
   const auto* p = gray.ptr<unsigned char>(row);
   return line.gradient_sign * (p[u + 2] - p[u - 2]);
 }
 
-/// The same, median over a line.
-int ownContrast(const cv::Mat& gray, const RefinedLine& line) {
-  std::vector<int> contrasts;
-  for (double v = line.begin; v <= line.end; v += 1.0)
-    if (const auto contrast = contrastAt(gray, line, v)) contrasts.push_back(*contrast);
-  return medianOf(contrasts);
-}
-
 /// What lies beyond the ends of a line of known range.
 class Beyond {
  public:
-  Beyond(const cv::Mat& gray, const DepthView& depth, const LevelledCamera& camera,
-         const RefinedLine& line, double range_m, bool one_sided, const PillarOptions& options)
-      : gray_(gray),
-        depth_(depth),
-        camera_(camera),
-        line_(line),
-        range_m_(range_m),
-        one_sided_(one_sided),
-        tolerance_m_(options.surface_step_m + 3.0 * kinectDepthSigma(range_m)),
-        in_reach_(range_m + tolerance_m_ < depth.reach_m()) {}
+  explicit Beyond(const UprightEdge& edge)
+      : gray_(edge.gray),
+        depth_(edge.depth),
+        camera_(edge.camera),
+        line_(edge.line),
+        range_m_(*edge.range_m),
+        one_sided_(edge.one_sided),
+        tolerance_m_(edge.options.surface_step_m + 3.0 * kinectDepthSigma(range_m_)),
+        in_reach_(range_m_ + tolerance_m_ < edge.reach_m) {}
 
   double heightAt(double v) const {
     const Eigen::Vector3d ray = camera_.ray(line_.at(v));
@@ -94,9 +89,10 @@ class Beyond {
            between(bottom - stretch, bottom).endedWithoutTrace(own_contrast, may_turn);
   }
   Evidence between(double top, double bottom) const {
+    const double first = std::max(top, 2.0), last = std::min(bottom, gray_.rows - 3.0);
     Evidence evidence;
-    for (double v = std::max(top, 2.0); v <= std::min(bottom, gray_.rows - 3.0); v += 1.0)
-      addRow(v, evidence);
+    evidence.contrasts.reserve(rowsBetween(first, last));
+    for (double v = first; v <= last; v += 1.0) addRow(v, evidence);
     return evidence;
   }
 
@@ -104,11 +100,11 @@ class Beyond {
   void addRow(double v, Evidence& evidence) const {
     const auto contrast = contrastAt(gray_, line_, v);
     if (!contrast) return;
-    const Eigen::Vector2d here = line_.at(v);
-    const Eigen::Vector2d aside(kBeside_px, 0.0);
-    const auto left = depth_.at(here - aside), right = depth_.at(here + aside);
+    const Pixel here{roundToInt(line_.across(v)), roundToInt(v)};
+    const auto left = depth_.rangeAt(here.u - kBeside_px, here.v);
+    const auto right = depth_.rangeAt(here.u + kBeside_px, here.v);
     // Where depth is missing on both sides, or beyond its reach, the contrast alone tells.
-    const double left_m = left ? left->range_m : kFar_m, right_m = right ? right->range_m : kFar_m;
+    const double left_m = left.value_or(kFar_m), right_m = right.value_or(kFar_m);
     const double nearer = std::min(left_m, right_m), farther = std::max(left_m, right_m);
     if (nearer < range_m_ - tolerance_m_) return;  // hidden
     const bool near_side = nearer < range_m_ + tolerance_m_;
@@ -124,12 +120,11 @@ class Beyond {
 
   /// A wall that is seen at a grazing angle has other ranges left and right too. Along a row 1 /
   /// range of a vertical plane is linear, and so the sides foretell the difference between them.
-  bool isOnePlane(const Eigen::Vector2d& here, double left_m, double right_m) const {
-    const Eigen::Vector2d aside(2.0 * kBeside_px, 0.0);
-    const auto left = depth_.at(here - aside), right = depth_.at(here + aside);
+  bool isOnePlane(const Pixel& here, double left_m, double right_m) const {
+    const auto left = depth_.rangeAt(here.u - 2 * kBeside_px, here.v);
+    const auto right = depth_.rangeAt(here.u + 2 * kBeside_px, here.v);
     if (!left || !right) return false;
-    const double foretold =
-        1.0 / left_m - 1.0 / left->range_m + 1.0 / right->range_m - 1.0 / right_m;
+    const double foretold = 1.0 / left_m - 1.0 / *left + 1.0 / *right - 1.0 / right_m;
     const double step = 1.0 / right_m - 1.0 / left_m - foretold;
     return std::abs(step) * range_m_ * range_m_ < tolerance_m_;
   }
@@ -147,11 +142,12 @@ class Beyond {
 /// What lies beyond the ends of a line without a range.
 class BeyondUnranged {
  public:
-  BeyondUnranged(const cv::Mat& gray, const DepthView& depth, const RefinedLine& line)
-      : gray_(gray), depth_(depth), line_(line) {}
+  explicit BeyondUnranged(const UprightEdge& edge)
+      : gray_(edge.gray), depth_(edge.depth), line_(edge.line), contrast_(edge.contrast) {}
 
   Evidence between(double top, double bottom) const {
     Evidence evidence;
+    evidence.contrasts.reserve(rowsBetween(top, bottom));
     for (double v = top; v <= bottom; v += 1.0)
       if (const auto contrast = contrastAt(gray_, line_, v))
         evidence.contrasts.push_back(*contrast);
@@ -161,8 +157,7 @@ class BeyondUnranged {
   /// From an end (excluded) on, a part of the picture's height: has the contrast gone?
   bool endedWithoutTrace(double from, int step) const {
     const double first = from + step * kPause_px, last = first + step * gray_.rows / 10.0;
-    return between(std::min(first, last), std::max(first, last))
-        .endedWithoutTrace(ownContrast(gray_, line_), true);
+    return between(std::min(first, last), std::max(first, last)).endedWithoutTrace(contrast_, true);
   }
   /// Does depth show something below this end that is higher than the floor?
   bool standsOnNoFloor(double end, double foot_m) const {
@@ -178,31 +173,31 @@ class BeyondUnranged {
   const cv::Mat& gray_;
   const DepthView& depth_;
   const RefinedLine& line_;
+  int contrast_;
 };
 
 /// Does depth beside most of a line not show a surface at this range? Where depth is missing it
 /// does not.
 bool isElsewhere(const DepthView& depth, const RefinedLine& line, double range_m) {
   constexpr int kPlaces = 8;
-  constexpr double kBeside_px = 5.0;
+  constexpr int kElsewhere_px = 5;
   const double tolerance_m = 0.1 + 3.0 * kinectDepthSigma(range_m);
   int here = 0;
   for (int i = 0; i < kPlaces; ++i) {
     const double v = line.begin + (line.end - line.begin) * (i + 0.5) / kPlaces;
-    const auto left = depth.at(line.at(v) - Eigen::Vector2d(kBeside_px, 0.0));
-    const auto right = depth.at(line.at(v) + Eigen::Vector2d(kBeside_px, 0.0));
+    const int u = roundToInt(line.across(v)), row = roundToInt(v);
+    const auto left = depth.rangeAt(u - kElsewhere_px, row);
+    const auto right = depth.rangeAt(u + kElsewhere_px, row);
     if (!left && !right) continue;  // nothing where depth reaches
-    const double nearer =
-        std::min(left ? left->range_m : right->range_m, right ? right->range_m : left->range_m);
+    const double nearer = std::min(left ? *left : *right, right ? *right : *left);
     here += std::abs(nearer - range_m) < tolerance_m ? 1 : 0;
   }
   return 2 * here < kPlaces;
 }
 
 /// What continues a line, in the order of their upper ends.
-RefinedLines piecesOf(const RefinedLine& line, const RefinedLines& lines,
-                      const LevelledCamera& camera, const DepthView& depth,
-                      std::optional<double> range_m) {
+RefinedLines piecesOf(const UprightEdge& edge, const RefinedLines& lines) {
+  const auto& [gray, depth, reach_m, camera, line, range_m, one_sided, options, contrast] = edge;
   constexpr double kAside_px = 2.5;
   constexpr double kBelowFloor_m = 0.15;
   RefinedLines pieces;
@@ -224,18 +219,22 @@ RefinedLines piecesOf(const RefinedLine& line, const RefinedLines& lines,
 
 }  // namespace
 
-SeenSpan seenSpan(const cv::Mat& gray, const DepthView& depth, const LevelledCamera& camera,
-                  const RefinedLine& line, const RefinedLines& lines, std::optional<double> range_m,
-                  bool one_sided, const PillarOptions& options) {
-  const int own = ownContrast(gray, line);
+int contrastOf(const cv::Mat& gray, const RefinedLine& line) {
+  std::vector<int> contrasts;
+  contrasts.reserve(rowsBetween(line.begin, line.end));
+  for (double v = line.begin; v <= line.end; v += 1.0)
+    if (const auto contrast = contrastAt(gray, line, v)) contrasts.push_back(*contrast);
+  return medianOf(contrasts);
+}
+
+SeenSpan seenSpan(const UprightEdge& edge, const RefinedLines& lines) {
   const auto isGap = [&](double top, double bottom) {
     const double from = top + kPause_px, to = bottom - kPause_px;
-    if (!range_m)
-      return BeyondUnranged(gray, depth, line).between(from, to).endedWithoutTrace(own, false);
-    const Beyond beyond(gray, depth, camera, line, *range_m, one_sided, options);
-    return beyond.between(from, to).endedWithoutTrace(own, false);
+    return (edge.range_m ? Beyond(edge).between(from, to) : BeyondUnranged(edge).between(from, to))
+        .endedWithoutTrace(edge.contrast, false);
   };
-  const RefinedLines pieces = piecesOf(line, lines, camera, depth, range_m);
+  const RefinedLine& line = edge.line;
+  const RefinedLines pieces = piecesOf(edge, lines);
   SeenSpan span{line.begin, line.end};
   for (const auto& piece : pieces) {
     if (piece.end <= span.bottom || piece.begin < line.begin) continue;
@@ -250,17 +249,12 @@ SeenSpan seenSpan(const cv::Mat& gray, const DepthView& depth, const LevelledCam
   return span;
 }
 
-bool hasGapInside(const cv::Mat& gray, const DepthView& depth, const LevelledCamera& camera,
-                  const RefinedLine& line, const SeenSpan& span, double range_m, bool one_sided,
-                  const PillarOptions& options) {
-  return Beyond(gray, depth, camera, line, range_m, one_sided, options)
-      .hasGap(span.top + kPause_px, span.bottom - kPause_px, ownContrast(gray, line), false);
+bool hasGapInside(const UprightEdge& edge, const SeenSpan& span) {
+  return Beyond(edge).hasGap(span.top + kPause_px, span.bottom - kPause_px, edge.contrast, false);
 }
 
-std::string reasonAgainstSpan(const cv::Mat& gray, const DepthView& depth,
-                              const LevelledCamera& camera, const RefinedLine& line,
-                              const SeenSpan& span, std::optional<double> range_m, bool one_sided,
-                              const PillarOptions& options) {
+std::string reasonAgainstSpan(const UprightEdge& edge, const SeenSpan& span) {
+  const auto& [gray, depth, reach_m, camera, line, range_m, one_sided, options, own] = edge;
   const auto elevation = [&](double v) {
     const Eigen::Vector3d ray = camera.ray(line.at(v));
     return ray.z() / ray.head<2>().norm();
@@ -273,7 +267,7 @@ std::string reasonAgainstSpan(const cv::Mat& gray, const DepthView& depth,
     if (!leaves_below && elevation(span.bottom) > 0.0 && options.max_foot_m < camera.height())
       return "ends above the horizon";
     if (leaves_below) return "";
-    const BeyondUnranged beyond(gray, depth, line);
+    const BeyondUnranged beyond(edge);
     if (beyond.standsOnNoFloor(span.bottom, options.max_foot_m) &&
         beyond.endedWithoutTrace(span.bottom, 1))
       return "ends above the floor";
@@ -285,8 +279,7 @@ std::string reasonAgainstSpan(const cv::Mat& gray, const DepthView& depth,
       return "too low for a part of the building";
     return "";
   }
-  const Beyond beyond(gray, depth, camera, line, *range_m, one_sided, options);
-  const int own = ownContrast(gray, line);
+  const Beyond beyond(edge);
   const double foot_m = beyond.heightAt(span.bottom), head_m = beyond.heightAt(span.top);
   const double row_m = beyond.heightAt(span.bottom) - beyond.heightAt(span.bottom + 1.0);
   const double highest_foot_m = options.max_foot_m + kEnd_px * row_m;

@@ -13,31 +13,39 @@ struct SeenSpan {
   double bottom = 0.0;
 };
 
+/// An upright line and what is around it.
+struct UprightEdge {
+  const cv::Mat& gray;
+  const DepthView& depth;
+  double reach_m;  ///< of depth in this frame
+  const LevelledCamera& camera;
+  const RefinedLine& line;
+  std::optional<double> range_m;  ///< horizontal, of the edge, if known
+  bool one_sided;                 ///< depth fails on one side of it
+  const PillarOptions& options;
+  int contrast;  ///< gray levels in the sense of its gradient, median over the line
+};
+/// Gray levels in the sense of its gradient, median over a line.
+int contrastOf(const cv::Mat& gray, const RefinedLine& line);
+
 /// The rows of a line and of all others that lie on it, above and below, with the same gradient.
 /// Not what lies below the floor at the line's range, a joint or a reflection there, nor what depth
 /// shows to be nearer or farther, nor what is separated from it by a gap in which neither depth nor
 /// the image shows an edge: the panels of a door stand one above the other.
-/// range_m: horizontal, of the edge, if known.
-SeenSpan seenSpan(const cv::Mat& gray, const DepthView& depth, const LevelledCamera& camera,
-                  const RefinedLine& line, const RefinedLines& lines, std::optional<double> range_m,
-                  bool one_sided, const PillarOptions& options);
+SeenSpan seenSpan(const UprightEdge& edge, const RefinedLines& lines);
 
-/// Is there a stretch of these rows in which neither depth nor the image shows the edge?
-bool hasGapInside(const cv::Mat& gray, const DepthView& depth, const LevelledCamera& camera,
-                  const RefinedLine& line, const SeenSpan& span, double range_m, bool one_sided,
-                  const PillarOptions& options);
+/// Is there a stretch of these rows in which neither depth nor the image shows the edge? Of an edge
+/// with a range.
+bool hasGapInside(const UprightEdge& edge, const SeenSpan& span);
 
 /// An edge of a building stands on the floor and is taller than furniture. Where it is not seen
 /// down to the floor or up to `min_head_m`, something must explain that: the picture ends,
 /// something nearer hides it, depth goes on to jump there, or the image keeps some of the contrast.
 /// Where instead the surfaces go on without an edge, or the near one ends, it is the side of a
 /// board, a panel, a table or a chair.
-/// range_m: horizontal, of the edge; empty: only the horizon tells, for what does not cross it
-/// cannot be both standing and taller than the camera is high.
+/// Without a range only the horizon tells, for what does not cross it cannot be both standing and
+/// taller than the camera is high.
 /// Returns why it is none, or nothing.
-std::string reasonAgainstSpan(const cv::Mat& gray, const DepthView& depth,
-                              const LevelledCamera& camera, const RefinedLine& line,
-                              const SeenSpan& span, std::optional<double> range_m, bool one_sided,
-                              const PillarOptions& options);
+std::string reasonAgainstSpan(const UprightEdge& edge, const SeenSpan& span);
 
 }  // namespace colonnade

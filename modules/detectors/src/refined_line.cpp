@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <optional>
-#include <span>
 #include <tuple>
 
 #include "line_refinement.hpp"
@@ -14,44 +13,8 @@
 namespace colonnade {
 namespace {
 
-/// Least squares over samples; the covariance is per unit variance of one sample.
-std::optional<Straight> leastSquares(std::span<const Sample> samples, Eigen::Matrix2d* covariance) {
-  if (samples.size() < 3) return std::nullopt;
-  const auto n = static_cast<double>(samples.size());
-  Straight line;
-  double mean = 0.0;
-  for (const auto& sample : samples) {
-    line.middle += sample.s / n;
-    mean += sample.across / n;
-  }
-  double ss = 0.0;
-  double st = 0.0;
-  for (const auto& sample : samples) {
-    ss += (sample.s - line.middle) * (sample.s - line.middle);
-    st += (sample.s - line.middle) * (sample.across - mean);
-  }
-  if (ss <= 0.0) return std::nullopt;
-  line.offset = mean;
-  line.slope = st / ss;
-  if (covariance) *covariance << 1.0 / n, 0.0, 0.0, 1.0 / ss;
-  return line;
-}
-
-/// How many samples agree with the line; may stop short of that when it cannot exceed `beat`.
-int countWithin(std::span<const Sample> samples, const Straight& line, double reach, int beat) {
-  constexpr std::size_t kBlock = 32;
-  int count = 0;
-  for (std::size_t first = 0; first < samples.size(); first += kBlock) {
-    const auto rest = samples.subspan(first);
-    if (count + static_cast<int>(rest.size()) <= beat) break;
-    for (const auto& sample : rest.first(std::min(kBlock, rest.size())))
-      count += std::abs(sample.across - line.across(sample.s)) < reach ? 1 : 0;
-  }
-  return count;
-}
-
 /// The line through two samples that most others agree with; pairs are taken at fixed places.
-std::optional<Straight> consensus(const Samples& samples, double inlier_px) {
+std::optional<Straight> consensus(SampleSpan samples, double inlier_px) {
   const std::size_t n = samples.size();
   if (n < 8) return std::nullopt;
   std::optional<Straight> best;
@@ -59,10 +22,11 @@ std::optional<Straight> consensus(const Samples& samples, double inlier_px) {
   constexpr std::size_t kPlaces = 7;
   for (std::size_t i = 0; i < kPlaces; ++i) {
     for (std::size_t j = i + 2; j < kPlaces; ++j) {
-      const auto& a = samples[i * (n - 1) / (kPlaces - 1)];
-      const auto& b = samples[j * (n - 1) / (kPlaces - 1)];
-      if (b.s - a.s < 8.0) continue;
-      const Straight line{a.s, a.across, (b.across - a.across) / (b.s - a.s)};
+      const std::size_t a = i * (n - 1) / (kPlaces - 1), b = j * (n - 1) / (kPlaces - 1);
+      const double steps = samples.s[b] - samples.s[a];
+      if (steps < 8.0) continue;
+      const Straight line{samples.s[a], samples.across[a],
+                          (samples.across[b] - samples.across[a]) / steps};
       const int count = countWithin(samples, line, inlier_px, best_count);
       if (count > best_count) {
         best_count = count;
@@ -74,89 +38,39 @@ std::optional<Straight> consensus(const Samples& samples, double inlier_px) {
   return best;
 }
 
-void copyWithin(std::span<const Sample> samples, const Straight& line, double reach,
-                Samples& kept) {
-  kept.clear();
-  for (const auto& sample : samples)
-    if (std::abs(sample.across - line.across(sample.s)) <= reach) kept.push_back(sample);
-}
-
-void keepWithin(Samples& samples, const Straight& line, double reach) {
-  std::erase_if(samples, [&](const Sample& sample) {
-    return std::abs(sample.across - line.across(sample.s)) > reach;
-  });
-}
-
 /// How many of the samples, ordered along the line, come before the first gap that is too wide.
-std::size_t firstRun(std::span<const Sample> samples, double max_gap_px) {
+std::size_t firstRun(SampleSpan samples, double max_gap_px) {
   std::size_t count = samples.empty() ? 0 : 1;
-  while (count < samples.size() && samples[count].s - samples[count - 1].s <= max_gap_px) ++count;
+  while (count < samples.size() && samples.s[count] - samples.s[count - 1] <= max_gap_px) ++count;
   return count;
 }
 
 /// Share of the samples whose gradient points straight across the line; blobs of texture turn it.
-double alignedShare(std::span<const Sample> samples, const RefinedLine& line) {
+double alignedShare(SampleSpan samples, const RefinedLine& line, const Walker& walker) {
   const Eigen::Vector2d normal =
       line.gradient_sign *
       (line.steep ? Eigen::Vector2d(1.0, -line.slope) : Eigen::Vector2d(-line.slope, 1.0));
   const double direction = std::atan2(normal.y(), normal.x());
   constexpr double kAligned = radians(33.0);
-  std::array<bool, 8> across{};
+  std::array<int, 8> across{};
   for (std::size_t sector = 0; sector < across.size(); ++sector)
     across[sector] =
-        std::abs(wrapAngle(static_cast<double>(sector) * kPi / 4.0 - direction)) < kAligned;
-  const auto aligned = std::count_if(samples.begin(), samples.end(), [&](const Sample& sample) {
-    return across[static_cast<std::size_t>(sample.sector) % across.size()];
-  });
+        std::abs(wrapAngle(static_cast<double>(sector) * kPi / 4.0 - direction)) < kAligned ? 1 : 0;
+  int aligned = 0;
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    aligned += across[static_cast<std::size_t>(walker.sectorAt(samples.s[i], samples.t[i])) %
+                      across.size()];
   return static_cast<double>(aligned) / static_cast<double>(samples.size());
-}
-
-/// `samples` keeps those that agree.
-std::optional<RefinedLine> fitRun(Samples& samples, bool steep, int sign,
-                                  const LineRefinementOptions& options) {
-  Eigen::Matrix2d unit;
-  for (int round = 0; round < 2; ++round) {
-    const auto line = leastSquares(samples, &unit);
-    if (!line) return std::nullopt;
-    keepWithin(samples, *line, options.inlier_px);
-  }
-  const auto line = leastSquares(samples, &unit);
-  if (!line) return std::nullopt;
-  double squares = 0.0;
-  for (const auto& sample : samples) {
-    const double residual = sample.across - line->across(sample.s);
-    squares += residual * residual;
-  }
-  constexpr double kLeastSigma_px = 0.05;
-  const auto n = static_cast<double>(samples.size());
-  const double variance = std::max(kLeastSigma_px * kLeastSigma_px, squares / (n - 2.0 + 1e-9));
-  RefinedLine result;
-  result.steep = steep;
-  result.middle = line->middle;
-  result.offset = line->offset;
-  result.slope = line->slope;
-  result.covariance = variance * options.correlated_samples * unit;
-  result.begin = samples.front().s;
-  result.end = samples.back().s;
-  result.gradient_sign = sign;
-  result.samples = static_cast<int>(samples.size());
-  const double steps = result.end - result.begin + 1.0;
-  if (squares > n * options.max_residual_px * options.max_residual_px) return std::nullopt;
-  if (result.length() < options.min_length_px || n < options.min_support * steps) {
-    return std::nullopt;
-  }
-  if (alignedShare(samples, result) < options.min_aligned) return std::nullopt;
-  return result;
 }
 
 /// Sums over samples 0 to i, for the residual of a straight line through any stretch in O(1).
 class StretchCosts {
  public:
-  explicit StretchCosts(std::span<const Sample> samples) : sums_(samples.size() + 1) {
-    const double origin = samples.empty() ? 0.0 : samples.front().s;
-    const double level = samples.empty() ? 0.0 : samples.front().across;
+  explicit StretchCosts(SampleSpan samples) : sums_(samples.size() + 1) {
+    const double origin = samples.empty() ? 0.0 : samples.s[0];
+    const double level = samples.empty() ? 0.0 : samples.across[0];
     for (std::size_t i = 0; i < samples.size(); ++i) {
-      const double s = samples[i].s - origin, t = samples[i].across - level;
+      const double s = samples.s[i] - origin, t = samples.across[i] - level;
       const Sums& a = sums_[i];
       sums_[i + 1] = {a.s + s, a.t + t, a.ss + s * s, a.st + s * t, a.tt + t * t};
     }
@@ -183,7 +97,7 @@ class StretchCosts {
 /// noise cannot be the reason: the feet of a wall and of a door in it, some centimetres farther
 /// back, look like one slanting line (F test for a break at an unknown place, after G. C. Chow, "Tests
 /// of equality between sets of coefficients in two linear regressions", Econometrica 1960).
-std::optional<std::size_t> breakOf(std::span<const Sample> samples, double correlated_samples) {
+std::optional<std::size_t> breakOf(SampleSpan samples, double correlated_samples) {
   constexpr std::size_t kLeast = 10;  // samples of a part
   constexpr double kLeastSigma_px = 0.1;
   constexpr double kImprobable = 16.0;  // chi-squared, the place being free
@@ -204,12 +118,12 @@ std::optional<std::size_t> breakOf(std::span<const Sample> samples, double corre
   if (whole - least < kImprobable * correlated_samples * variance) return std::nullopt;
   // Lenses bend lines by less than this.
   constexpr double kApart_px = 0.5;
-  const auto one = leastSquares(samples, nullptr);
-  for (const auto part : {samples.first(best), samples.subspan(best)}) {
-    const auto line = leastSquares(part, nullptr);
-    if (!one || !line) continue;
-    for (const double s : {part.front().s, part.back().s})
-      if (std::abs(one->across(s) - line->across(s)) > kApart_px) return best;
+  const auto one = leastSquares(samples);
+  for (const SampleSpan part : {samples.first(best), samples.subspan(best)}) {
+    const auto fit = leastSquares(part);
+    if (!one || !fit) continue;
+    for (const double s : {part.s[0], part.s[part.size() - 1]})
+      if (std::abs(one->line.across(s) - fit->line.across(s)) > kApart_px) return best;
   }
   return std::nullopt;
 }
@@ -223,12 +137,14 @@ bool mayBreak(const RefinedLine& line) {
 /// What a line is compared by.
 struct Placed {
   Eigen::Vector2d begin, end;  ///< px
+  Eigen::Vector2d along;       ///< unit
   Eigen::Vector2d gradient;    ///< unit: which way it points, roughly
   double length = 0.0;
 
   explicit Placed(const RefinedLine& line)
       : begin(line.at(line.begin)),
         end(line.at(line.end)),
+        along((end - begin).normalized()),
         gradient(line.gradient_sign * (line.steep ? Eigen::Vector2d(1.0, -line.slope)
                                                   : Eigen::Vector2d(-line.slope, 1.0))
                                           .normalized()),
@@ -238,21 +154,20 @@ struct Placed {
 /// `line` says nothing that the longer `kept` does not say.
 bool isDuplicate(const Placed& line, const Placed& kept, double duplicate_px) {
   if (kept.gradient.dot(line.gradient) < 0.5) return false;
-  const Eigen::Vector2d along = (kept.end - kept.begin).normalized();
   double low = 1e9;
   double high = -1e9;
   for (const Eigen::Vector2d& end : {line.begin, line.end}) {
     const Eigen::Vector2d offset = end - kept.begin;
     if (std::abs(kept.gradient.dot(offset)) > duplicate_px) return false;
-    low = std::min(low, along.dot(offset));
-    high = std::max(high, along.dot(offset));
+    low = std::min(low, kept.along.dot(offset));
+    high = std::max(high, kept.along.dot(offset));
   }
   const double overlap = std::min(high, kept.length) - std::max(low, 0.0);
   return overlap > 0.4 * (high - low);
 }
 
 /// Another seed has led to this line already: neighbouring bins share most edges.
-bool isFitted(const Straight& line, const Samples& samples, bool steep, int sign,
+bool isFitted(const Straight& line, SampleSpan samples, bool steep, int sign,
               const RefinedLines& fitted) {
   constexpr double kSame_px = 0.7;
   return std::any_of(fitted.begin(), fitted.end(), [&](const RefinedLine& other) {
@@ -260,34 +175,46 @@ bool isFitted(const Straight& line, const Samples& samples, bool steep, int sign
     const auto same = [&](double s) {
       return std::abs(other.across(s) - line.across(s)) < kSame_px;
     };
-    return same(samples.front().s) && same(samples.back().s) && same(other.begin) &&
+    return same(samples.s[0]) && same(samples.s[samples.size() - 1]) && same(other.begin) &&
            same(other.end);
   });
 }
 
 }  // namespace
 
+LineRefiner::LineRefiner(const cv::Mat& gray, const cv::Mat& edges, bool steep,
+                         const LineRefinementOptions& options)
+    : walker_(gray, edges, steep),
+      steep_(steep),
+      options_(options),
+      rising_(walker_.steps()),
+      falling_(walker_.steps()),
+      beside_(walker_.steps()),
+      some_(walker_.steps()) {}
+
 void LineRefiner::refine(const Straight& guess, RefinedLines& lines) {
   walker_.collectFree(guess, options_.search_px, rising_, falling_);
   for (const int sign : {1, -1}) {
-    const Samples& candidates = sign > 0 ? rising_ : falling_;
-    if (static_cast<double>(candidates.size()) <
-        options_.min_support * 0.7 * options_.min_length_px) {
+    Samples& beside = sign > 0 ? rising_ : falling_;
+    if (static_cast<double>(beside.size()) < options_.min_support * 0.7 * options_.min_length_px) {
       continue;
     }
+    walker_.measure(beside);
+    const SampleSpan candidates = beside;
     const auto agreed = consensus(candidates, options_.inlier_px);
     if (!agreed || isFitted(*agreed, candidates, steep_, sign, lines)) continue;
     walker_.collectAll(*agreed, 2.0 * options_.inlier_px, sign, beside_);
-    copyWithin(beside_, *agreed, options_.inlier_px, some_);
-    const auto fitted = leastSquares(some_, nullptr);
+    walker_.measure(beside_);
+    some_.assignWithin(beside_, *agreed, options_.inlier_px);
+    const auto fitted = leastSquares(some_);
     if (!fitted) continue;
-    keepWithin(beside_, *fitted, 1.5 * options_.inlier_px);
-    for (std::span<const Sample> rest = beside_; !rest.empty();) {
-      const auto run = rest.first(firstRun(rest, options_.max_gap_px));
+    beside_.assignWithin(beside_, fitted->line, 1.5 * options_.inlier_px);
+    for (SampleSpan rest = beside_; !rest.empty();) {
+      const SampleSpan run = rest.first(firstRun(rest, options_.max_gap_px));
       rest = rest.subspan(run.size());
-      if (run.back().s - run.front().s < 0.7 * options_.min_length_px) continue;
-      some_.assign(run.begin(), run.end());
-      const auto line = fitRun(some_, steep_, sign, options_);
+      if (run.s[run.size() - 1] - run.s[0] < 0.7 * options_.min_length_px) continue;
+      some_.assign(run);
+      const auto line = fitRun(some_, sign);
       if (!line) continue;
       walker_.take(some_, sign);
       if (mayBreak(*line))
@@ -298,16 +225,50 @@ void LineRefiner::refine(const Straight& guess, RefinedLines& lines) {
   }
 }
 
-void LineRefiner::appendStraightParts(const RefinedLine& line, const Samples& samples,
+std::optional<RefinedLine> LineRefiner::fitRun(Samples& samples, int sign) const {
+  for (int round = 0; round < 2; ++round) {
+    const auto fit = leastSquares(samples);
+    if (!fit) return std::nullopt;
+    samples.assignWithin(samples, fit->line, options_.inlier_px);
+  }
+  const auto fit = leastSquares(samples);
+  if (!fit) return std::nullopt;
+  const SampleSpan kept = samples;
+  const double squares = sumOfSquaredResiduals(kept, fit->line);
+  constexpr double kLeastSigma_px = 0.05;
+  const double n = fit->samples;
+  const double variance = std::max(kLeastSigma_px * kLeastSigma_px, squares / (n - 2.0 + 1e-9));
+  RefinedLine result;
+  result.steep = steep_;
+  result.middle = fit->line.middle;
+  result.offset = fit->line.offset;
+  result.slope = fit->line.slope;
+  result.covariance.diagonal() << 1.0 / n, 1.0 / fit->spread;
+  result.covariance *= variance * options_.correlated_samples;
+  result.begin = kept.s[0];
+  result.end = kept.s[kept.size() - 1];
+  result.gradient_sign = sign;
+  result.samples = static_cast<int>(kept.size());
+  const double steps = result.end - result.begin + 1.0;
+  if (squares > n * options_.max_residual_px * options_.max_residual_px) return std::nullopt;
+  if (result.length() < options_.min_length_px || n < options_.min_support * steps) {
+    return std::nullopt;
+  }
+  if (alignedShare(kept, result, walker_) < options_.min_aligned) return std::nullopt;
+  return result;
+}
+
+void LineRefiner::appendStraightParts(const RefinedLine& line, SampleSpan samples,
                                       RefinedLines& lines) const {
   const auto at = breakOf(samples, options_.correlated_samples);
   if (!at) {
     lines.push_back(line);
     return;
   }
-  const auto middle = samples.begin() + static_cast<std::ptrdiff_t>(*at);
-  for (Samples part : {Samples(samples.begin(), middle), Samples(middle, samples.end())}) {
-    const auto fitted = fitRun(part, steep_, line.gradient_sign, options_);
+  for (const SampleSpan some : {samples.first(*at), samples.subspan(*at)}) {
+    Samples part(static_cast<int>(some.size()));
+    part.assign(some);
+    const auto fitted = fitRun(part, line.gradient_sign);
     if (fitted) appendStraightParts(*fitted, part, lines);
   }
 }

@@ -11,7 +11,8 @@
 
 namespace colonnade {
 
-/// What an edge looks like, so that it is recognised in the next frame.
+/// What an edge looks like, so that it is recognised in the next frame. Colours are looked up for
+/// accepted detections only.
 struct Appearance {
   int gradient_sign = 0;                            ///< +1: brighter on its right (or far) side
   Eigen::Vector3f left = Eigen::Vector3f::Zero();   ///< mean B, G, R beside it; gray if no colour
@@ -30,7 +31,7 @@ struct Detection {
   /// Pillar edges: the other edge of the same pillar, as an index into the frame's detections.
   std::optional<std::size_t> partner;
   double width_m = 0.0;  ///< pillars whose two edges have range, otherwise 0
-  /// Pillar edges: a line of paint, a joint or a narrow gap, with the same surface on both sides. It
+  /// Accepted pillar edges: a line of paint, a joint or a gap with the same surface on both sides. It
   /// stays where it is, and so serves as a landmark, but is no edge of a pillar, frame or wall.
   bool on_surface = false;
   std::string refusal;   ///< why the detector does not stand behind it; empty = accepted

@@ -24,7 +24,7 @@ class LevelledCamera {
   /// The viewing ray in the robot's axes; its length is such that depth * ray is the point's offset
   /// from the camera's centre.
   Eigen::Vector3d ray(double u_px, double v_px) const {
-    return R_robot_camera_ * camera_.ray(u_px, v_px);
+    return ray_at_0_ + u_px * ray_per_u_ + v_px * ray_per_v_;
   }
   Eigen::Vector3d ray(const Eigen::Vector2d& p_px) const { return ray(p_px.x(), p_px.y()); }
   /// Where the ray of a pixel meets the floor z = 0; nothing on or above the horizon.
@@ -36,9 +36,12 @@ class LevelledCamera {
   Eigen::Vector2d downDirection(const Eigen::Vector2d& p_px) const;
 
  private:
+  void setRays();
+
   PinholeCamera camera_;
   Eigen::Matrix3d R_robot_camera_;
   Eigen::Vector3d p_robot_camera_;
+  Eigen::Vector3d ray_at_0_, ray_per_u_, ray_per_v_;  ///< of pixel (0, 0) and from pixel to pixel
 };
 
 }  // namespace colonnade
