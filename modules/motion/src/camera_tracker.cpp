@@ -19,6 +19,8 @@ namespace {
 
 constexpr int kLevels = 4;
 constexpr int kMinPoints = 50;  ///< of one kind, to rely on it
+/// Of brightness, in a picture full of it: before bare walls there are a few hundred.
+constexpr int kMuchTexture = 1500;
 constexpr double kLongestCoast_s = 1.0;
 constexpr double kPriorSigmas = 6.0;  ///< times the wheels', so that they hardly count twice
 constexpr double kSurprise = 22.46;   ///< chi squared, 6 degrees of freedom, 0.1 %
@@ -213,7 +215,7 @@ struct CameraTracker::Impl {
     surfaces_only.use_photometric = false;
     const Alignment surfaces = align(*key, current, prior, no_other, surfaces_only);
     if (seen && !isSound(surfaces)) return both;
-    motion.contradicts_wheels = contradicts;
+    motion.contradicts_wheels = contradicts && both.photometric_count >= kMuchTexture;
     return surfaces;
   }
 

@@ -19,8 +19,8 @@ struct CameraMotion {
   /// Of e (metres, then radians, axes of this frame's camera) in T_true = T * exp(e).
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
   MotionSource source = MotionSource::kNone;
-  /// Brightness contradicted the wheels and was left out: what only brightness could tell rests on
-  /// wheels that may slip.
+  /// Brightness of a picture full of texture contradicted the wheels and was left out: what only
+  /// brightness could tell rests on wheels that may slip.
   bool contradicts_wheels = false;
   std::optional<std::size_t> previous_index;  ///< of the former frame tracked
 };
