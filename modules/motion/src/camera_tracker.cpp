@@ -22,8 +22,9 @@ constexpr int kMinPoints = 50;  ///< of one kind, to rely on it
 /// Of brightness, in a picture full of it: before bare walls there are a few hundred.
 constexpr int kMuchTexture = 1500;
 constexpr double kLongestCoast_s = 1.0;
-constexpr double kPriorSigmas = 6.0;  ///< times the wheels', so that they hardly count twice
-constexpr double kSurprise = 22.46;   ///< chi squared, 6 degrees of freedom, 0.1 %
+constexpr double kPriorSigmas = 6.0;      ///< times the wheels', so that they hardly count twice
+constexpr double kSurprise = 22.46;       ///< chi squared, 6 degrees of freedom, 0.1 %
+constexpr double kContradiction = 12.59;  ///< 5 %: what it costs is little
 
 Eigen::Isometry3d scaledMotion(const Eigen::Isometry3d& T, double factor) {
   Eigen::Isometry3d out = Eigen::Isometry3d::Identity();
@@ -116,7 +117,7 @@ struct CameraTracker::Impl {
         T_key_previous.inverse() * alignment.T_reference_current;
     const Vector6 e = logSe3(by_wheels->T_previous_camera.inverse() * T_previous_camera);
     const Matrix6 S = by_wheels->covariance + covarianceOf(alignment, T_previous_camera);
-    return e.dot(S.llt().solve(e)) > kSurprise;
+    return e.dot(S.llt().solve(e)) > kContradiction;
   }
 
   Eigen::Isometry3d predicted(double dt_s) const {
