@@ -201,6 +201,18 @@ TEST(RestingMap, StaysSoundAndShowsEveryLandmark) {
   EXPECT_LT(ring.filters[0].state().blocks.size(), 20u);
 }
 
+TEST(RestingMap, WakingAllOfItChangesNothingElse) {
+  Ring ring({withActive(6, true)});
+  for (int i = 0; i < Ring::kStepsAround; ++i) ring.step();
+  EkfSlam& filter = ring.filters[0];
+  const State before = filter.fullState();
+  ASSERT_LT(filter.state().blocks.size(), before.blocks.size());
+  filter.wakeAll();
+  EXPECT_EQ(filter.state().x, before.x);
+  EXPECT_EQ(filter.state().P, before.P);
+  for (const Block& block : before.blocks) EXPECT_FALSE(filter.isResting(block.id));
+}
+
 TEST(RestingMap, ARestingLandmarkIsFoundByItsReading) {
   Ring ring({withActive(6, true)});
   for (int i = 0; i < Ring::kStepsAround / 2; ++i) ring.step();

@@ -8,7 +8,8 @@
 
 namespace colonnade {
 
-/// As std::lround, halves away from zero, without the call; for magnitudes below 1e9.
+/// As std::lround, halves away from zero, without the call (but for the number next below a half);
+/// for magnitudes below 1e9.
 inline int roundToInt(double x) { return static_cast<int>(x < 0.0 ? x - 0.5 : x + 0.5); }
 
 struct Pixel {

@@ -114,7 +114,8 @@ class Votes {
   }
   void add(int u, bool rising) {
     const double bin = u * factor_ + shift_;
-    if (bin < 1.0 || bin > 3.0 * columns_ - 2.0) return;
+    // No number where the camera looks straight down or lies on its side.
+    if (!(bin >= 1.0 && bin <= 3.0 * columns_ - 2.0)) return;
     ++counts_[rising ? 0 : 1][static_cast<std::size_t>(bin + 0.5)];
   }
 

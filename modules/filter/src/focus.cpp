@@ -160,15 +160,28 @@ std::vector<LandmarkId> EkfSlam::restingNear(std::span<const Measurement> measur
   return near;
 }
 
+namespace {
+
+std::vector<LandmarkId> allOf(const State& state, const RestingMap& resting) {
+  std::vector<LandmarkId> all;
+  for (const Block& block : state.blocks) all.push_back(block.id);
+  for (const Block& block : resting.blocks()) all.push_back(block.id);
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+}  // namespace
+
+void EkfSlam::wakeAll() {
+  if (!resting_.empty())
+    resting_.exchange(state_, allOf(state_, resting_), options_.invariant, 0.0);
+}
+
 State EkfSlam::fullState() const {
   if (resting_.empty()) return state_;
   RestingMap resting = resting_;
   State state = state_;
-  std::vector<LandmarkId> all;
-  for (const Block& block : state_.blocks) all.push_back(block.id);
-  for (const Block& block : resting_.blocks()) all.push_back(block.id);
-  std::sort(all.begin(), all.end());
-  resting.exchange(state, all, options_.invariant, 0.0);
+  resting.exchange(state, allOf(state_, resting_), options_.invariant, 0.0);
   return state;
 }
 

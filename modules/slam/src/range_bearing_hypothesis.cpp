@@ -124,6 +124,7 @@ bool RangeBearingHypothesis::strike(LandmarkId landmark, const ReadingFrame& fra
                                    [&](const LandmarkId id) { return id != landmark; });
   if (several && refused_in_a_row_.size() >= kLostAfterRefusals) {
     refused_in_a_row_.clear();
+    filter.wakeAll();
     filter.predict({}, lostCovariance());
     events.push_back({frame.stamp_s, frame.index, "lost", std::nullopt,
                       "all readings in a row refused: the pose is in doubt"});

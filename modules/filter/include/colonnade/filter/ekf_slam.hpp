@@ -130,6 +130,10 @@ class EkfSlam {
   /// landmarks only.
   void focus(std::span<const LandmarkId> needed);
   bool isResting(LandmarkId landmark) const { return resting_.find(landmark) != nullptr; }
+  /// Nothing rests until the next focus(). To be called before the heading becomes uncertain by
+  /// more than motion makes it: resting points are transported when they enter, with the heading's
+  /// covariance of that moment.
+  void wakeAll();
   /// Resting points that one of the measurements (those with range) may be of.
   std::vector<LandmarkId> restingNear(std::span<const Measurement> measurements) const;
   /// The state with all landmarks active, up to date. A copy of everything where some rest.

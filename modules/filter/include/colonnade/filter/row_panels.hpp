@@ -12,7 +12,8 @@
 namespace colonnade {
 
 /// A tall matrix in panels of a few rows, each by columns without gaps: what is done panel by panel
-/// stays in the fastest memory. New rows are added without copies, new columns while there is room.
+/// stays in the fastest memory. New rows are added with a copy of the last
+/// few panels at most, new columns while there is room.
 class RowPanels {
  public:
   static constexpr Eigen::Index kRows = 32;
