@@ -32,15 +32,21 @@ void printRow(const char* name, const Consistency& c) {
   std::printf(" | %6.2f %6.2f | %8.3f\n", c.nees_mean, c.nees_all, c.position_rmse_m);
 }
 
-/// Six active landmarks in the place of all: what the resting map does to the NEES.
-void studyResting(const char* title, const testing::HallNoise& noise, bool axes, int rounds,
-                  int runs) {
+testing::ConsistencySetting settingOf(const testing::HallNoise& noise, bool axes, int rounds,
+                                      int runs) {
   testing::ConsistencySetting setting;
   setting.noise = noise;
   setting.axes = axes;
   setting.filter.gate_probability = kGate;
   setting.runs = runs;
   setting.steps = rounds * testing::BuildingHall::kStepsARound;
+  return setting;
+}
+
+/// Six active landmarks in the place of all: what the resting map does to the NEES.
+void studyResting(const char* title, const testing::HallNoise& noise, bool axes, int rounds,
+                  int runs) {
+  testing::ConsistencySetting setting = settingOf(noise, axes, rounds, runs);
   std::printf("\n%s: NEES as above, with six active landmarks and the rest resting\n", title);
   setting.filter.active_landmarks = 0;
   printRow("all active", studyConsistency(setting));
@@ -61,12 +67,7 @@ void printNis(const char* name, const Consistency& c) {
 }
 
 void study(const char* title, const testing::HallNoise& noise, bool axes, int rounds, int runs) {
-  testing::ConsistencySetting setting;
-  setting.noise = noise;
-  setting.axes = axes;
-  setting.filter.gate_probability = kGate;
-  setting.runs = runs;
-  setting.steps = rounds * testing::BuildingHall::kStepsARound;
+  testing::ConsistencySetting setting = settingOf(noise, axes, rounds, runs);
   const Consistency invariant = studyConsistency(setting);
   setting.filter.invariant = false;
   const Consistency plain = studyConsistency(setting);

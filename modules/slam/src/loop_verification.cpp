@@ -12,8 +12,8 @@
 namespace colonnade {
 namespace {
 
-/// A closing is taken back when elsewhere is so much likelier than here, as a log-likelihood ratio:
-/// e^10 for ten looks each, which resemble their neighbours.
+/// A closing is taken back when elsewhere is so much likelier than here, as a log-likelihood ratio.
+/// Neighbouring looks resemble each other, so that it is worth far less than e^15.
 constexpr double kMostDoubt = 15.0;
 /// Old landmarks nearer than this may come into view.
 constexpr double kReach_m = 8.0;
