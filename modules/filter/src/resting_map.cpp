@@ -10,6 +10,7 @@
 #include "colonnade/base/angle.hpp"
 #include "low_rank.hpp"
 #include "panel_product.hpp"
+#include "passage.hpp"
 
 namespace colonnade {
 namespace {
@@ -18,8 +19,10 @@ using Index = Eigen::Index;
 using Indices = std::vector<Index>;
 constexpr Index kRows = RowPanels::kRows;
 
-/// What is negligible is judged on at most so many resting blocks, evenly spread over all.
-constexpr std::size_t kBlocksJudged = 500;
+/// What is negligible is judged on at most about so many rows, evenly spread over all that rest ...
+constexpr std::size_t kRowsJudged = 800;
+/// ... as many together as lie in one line of the cache.
+constexpr std::size_t kRowsTogether = 8;
 
 bool before(const Block& block, LandmarkId id) { return block.id < id; }
 bool older(const Block& a, const Block& b) { return a.id < b.id; }
@@ -64,61 +67,6 @@ class RowsByPanel {
 };
 
 }  // namespace
-
-/// What the state went through, as the resting part needs it. The parameters of the state at the
-/// last exchange by which it changed are the robot's and those measured: they are the support.
-/// Where Psi is zero, Phi says only where a parameter went: it is that of the identity, but for
-/// blocks that were removed or converted.
-class RestingMap::Passage {
- public:
-  explicit Passage(const Transfer& transfer) {
-    for (Index j = 0; j < transfer.Psi.rows(); ++j) {
-      if (j < 3 || transfer.Psi(j, j) != 0.0) {
-        support_.push_back(j);
-        continue;
-      }
-      for (Index i = 0; i < transfer.Phi.rows(); ++i)
-        if (transfer.Phi(i, j) != 0.0) moves_.push_back({i, j, transfer.Phi(i, j)});
-    }
-    Phi_ = transfer.Phi(Eigen::all, support_);
-    Psi_ = transfer.Psi(support_, support_);
-    theta_ = transfer.theta(support_, Eigen::all).transpose();
-  }
-
-  const Indices& support() const { return support_; }
-  Index size() const { return Phi_.rows(); }
-  const Eigen::MatrixXd& Psi() const { return Psi_; }
-
-  /// The columns of the support of one panel of C.
-  void gather(const RowPanels& C, Index panel, Eigen::MatrixXd& C_support) const {
-    C_support = C.panel(panel)(Eigen::all, support_);
-  }
-  /// C theta.
-  Eigen::Matrix<double, kRows, 3> step(const Eigen::MatrixXd& C_support) const {
-    Eigen::Matrix<double, kRows, 3> step = Eigen::Matrix<double, kRows, 3>::Zero();
-    addPanelProduct(step.data(), 3, C_support.data(), theta_.data(), 3, theta_.cols());
-    return step;
-  }
-  /// X = C Phi^T, to be zero before.
-  void carry(const RowPanels& C, Index panel, Eigen::MatrixXd& C_support, double* X) const {
-    gather(C, panel, C_support);
-    addPanelProduct(X, size(), C_support.data(), Phi_.data(), size(), Phi_.cols());
-    RowPanels::Panel to(X, kRows, size());
-    for (const Move& move : moves_) to.col(move.to) += move.factor * C.panel(panel).col(move.from);
-  }
-
- private:
-  struct Move {
-    Index to;
-    Index from;
-    double factor;
-  };
-  Indices support_;
-  Eigen::MatrixXd Phi_;
-  Eigen::MatrixXd Psi_;
-  Eigen::Matrix3Xd theta_;
-  std::vector<Move> moves_;
-};
 
 Block* RestingMap::find(LandmarkId id) {
   return const_cast<Block*>(static_cast<const RestingMap&>(*this).find(id));
@@ -185,18 +133,22 @@ BlockVector RestingMap::turnOfWay(const Block& block, const BlockVector& y) cons
 }
 
 Indices RestingMap::judged(double negligible) const {
+  std::vector<std::size_t> groups;
+  for (std::size_t row = 0; row < rests_.size();
+       row += rests_[row] ? kRowsTogether - row % kRowsTogether : 1)
+    if (rests_[row]) groups.push_back(row / kRowsTogether);
+  const std::size_t most = negligible > 0.0 ? kRowsJudged / kRowsTogether : groups.size();
   const std::size_t stride =
-      negligible > 0.0
-          ? std::max<std::size_t>(1, (blocks_.size() + kBlocksJudged - 1) / kBlocksJudged)
-          : 1;
+      std::max<std::size_t>(1, (groups.size() + most - 1) / std::max<std::size_t>(1, most));
   Indices rows;
-  for (std::size_t i = 0; i < blocks_.size(); i += stride)
-    for (int k = 0; k < blocks_[i].size(); ++k) rows.push_back(blocks_[i].offset + k);
-  std::sort(rows.begin(), rows.end());
+  for (std::size_t g = 0; g < groups.size(); g += stride)
+    for (std::size_t row = groups[g] * kRowsTogether;
+         row < std::min(rests_.size(), (groups[g] + 1) * kRowsTogether); ++row)
+      if (rests_[row]) rows.push_back(static_cast<Index>(row));
   return rows;
 }
 
-void RestingMap::follow(const Passage& passage, double negligible) {
+Eigen::MatrixXd RestingMap::gain(const Passage& passage, double negligible) const {
   const Indices rows = judged(negligible);
   Eigen::MatrixXd C_judged = C_.rows(rows, passage.support());
   if (negligible > 0.0) {
@@ -205,22 +157,7 @@ void RestingMap::follow(const Passage& passage, double negligible) {
     };
     C_judged = variance_(rows).unaryExpr(inverse).asDiagonal() * C_judged;
   }
-  const Eigen::MatrixXd At = lowRankFactor(C_judged, passage.Psi(), negligible).transpose();
-  const Index first = P_.owe(At.rows());
-  Eigen::MatrixXd C_support;
-  Eigen::MatrixX3d step(C_.panels() * kRows, 3);
-  for (Index panel = 0; panel < C_.panels(); ++panel) {
-    passage.gather(C_, panel, C_support);
-    step.middleRows<kRows>(panel * kRows) = passage.step(C_support);
-    addPanelProduct(P_.owed().column(panel, first), At.rows(), C_support.data(), At.data(),
-                    At.rows(), At.cols());
-    const Index count = std::min(kRows, variance_.size() - panel * kRows);
-    variance_.segment(panel * kRows, count) -=
-        P_.owed().panel(panel).rightCols(At.rows()).topRows(count).rowwise().squaredNorm();
-  }
-  for (const Block& block : blocks_)
-    x_.segment(block.offset, block.size()) =
-        moved(block, step.middleRows(block.offset, block.size()));
+  return lowRankFactor(C_judged, passage.Psi(), negligible).transpose();
 }
 
 void RestingMap::giveSlots(std::vector<Block>& leaving) {
@@ -238,45 +175,73 @@ void RestingMap::giveSlots(std::vector<Block>& leaving) {
   C_.growRows(size);
 }
 
+/// What enters the state: its values, and its covariance with the state as it was.
+struct RestingMap::Entering {
+  std::vector<Block> blocks;  ///< by slot
+  Indices rows;
+  Eigen::VectorXd x;
+  Eigen::MatrixXd X;  ///< transported
+  Eigen::VectorXd g;  ///< of the transport M = I + g e^T, by the whole way since it came to rest
+  Eigen::VectorXd w;  ///< M P M^T = P + g w^T + w g^T
+};
+
+RestingMap::Entering RestingMap::entering(std::vector<Block> blocks, const State& state,
+                                          const Eigen::MatrixXd& C) const {
+  Entering in{std::move(blocks), {}, {}, {}, {}, {}};
+  in.rows = indicesOf(in.blocks);
+  const auto n = static_cast<Index>(in.rows.size());
+  in.x.resize(n);
+  in.X.resize(n, state.x.size());
+  in.g.setZero(n);
+  in.w.setZero(n);
+  if (n == 0) return in;
+  const Eigen::MatrixX3d step = C * state.transfer->theta;
+  in.X.noalias() = C * state.transfer->Phi.transpose();
+  in.w = in.X.col(2);
+  for (Index row = 0; const Block& block : in.blocks) {
+    in.x.segment(row, block.size()) = moved(block, step.middleRows(row, block.size()));
+    if (invariant_)
+      in.g.segment(row, block.size()) = turnOfWay(block, in.x.segment(row, block.size()));
+    row += block.size();
+  }
+  in.w += 0.5 * state.P(2, 2) * in.g;
+  in.X += in.g * state.P.row(2);
+  return in;
+}
+
 void RestingMap::exchange(State& state, const std::vector<LandmarkId>& active, bool invariant,
                           double negligible) {
   invariant_ = invariant;
   const Index n_before = state.x.size();
-  std::optional<Passage> passage;
-  if (state.transfer) {
-    passage.emplace(*state.transfer);
-    follow(*passage, negligible);
-  }
   const auto isActive = [&](const Block& block) {
     return std::binary_search(active.begin(), active.end(), block.id);
   };
-  std::vector<Block> kept, leaving, entering;
+  std::vector<Block> kept, leaving, woken;
   std::partition_copy(state.blocks.begin(), state.blocks.end(), std::back_inserter(kept),
                       std::back_inserter(leaving), isActive);
-  std::copy_if(blocks_.begin(), blocks_.end(), std::back_inserter(entering), isActive);
+  std::copy_if(blocks_.begin(), blocks_.end(), std::back_inserter(woken), isActive);
   std::erase_if(blocks_, isActive);
   if (blocks_.empty()) P_.settle();
-  std::sort(entering.begin(), entering.end(),
+  std::sort(woken.begin(), woken.end(),
             [](const Block& a, const Block& b) { return a.offset < b.offset; });
 
-  // What enters: its covariance with the state, and the transport M = I + g e^T of its points by
-  // their whole way since they came to rest.
-  const Indices in = indicesOf(entering);
-  const auto n_in = static_cast<Index>(in.size());
-  const Eigen::VectorXd x_in = x_(in);
-  Eigen::MatrixXd X_in = Eigen::MatrixXd::Zero(n_in, n_before);
-  if (n_in > 0) X_in.noalias() = C_.rows(in) * state.transfer->Phi.transpose();
-  const Eigen::VectorXd h_in = X_in.col(2);
-  Eigen::VectorXd g_in = Eigen::VectorXd::Zero(n_in);
-  if (invariant) {
-    Index row = 0;
-    for (const Block& block : entering) {
-      g_in.segment(row, block.size()) = turnOfWay(block, x_in.segment(row, block.size()));
-      row += block.size();
-    }
-    X_in += g_in * state.P.row(2);
+  // What the resting part loses by what the state went through.
+  std::optional<Passage> passage;
+  Eigen::MatrixXd At;
+  if (state.transfer) {
+    passage.emplace(*state.transfer);
+    At = gain(*passage, negligible);
   }
-  const RestingCovariance::Columns columns_in = P_.columns(in);
+  const Index first_owed = P_.owe(At.rows());
+
+  const Indices rows_woken = indicesOf(woken);
+  const Eigen::MatrixXd C_in = C_.rows(rows_woken);
+  const Entering in = entering(std::move(woken), state, C_in);
+  const auto n_in = in.x.size();
+  RestingCovariance::Columns columns_in = P_.columns(in.rows);
+  if (passage && n_in > 0)
+    columns_in.minus_owed.rightCols(At.rows()) =
+        -productOfRows(C_in(Eigen::all, passage->support()), At);
 
   // What leaves takes its slots; nothing is owed to what is written now.
   const Indices out = indicesOf(leaving);
@@ -285,14 +250,14 @@ void RestingMap::exchange(State& state, const std::vector<LandmarkId>& active, b
   P_.forgive(out_slots);
   x_(out_slots) = x_transported_(out_slots) = state.x(out);
   variance_(out_slots) = state.P.diagonal()(out);
-  for (const Index row : in) rests_[at(row)] = false;
+  for (const Index row : in.rows) rests_[at(row)] = false;
   for (const Index row : out_slots) rests_[at(row)] = true;
 
   // The new state: the robot, and what is active in the order of birth.
   State next;
   Indices from_state{0, 1, 2}, to_state{0, 1, 2}, to_entering;
   next.blocks = kept;
-  next.blocks.insert(next.blocks.end(), entering.begin(), entering.end());
+  next.blocks.insert(next.blocks.end(), in.blocks.begin(), in.blocks.end());
   std::sort(next.blocks.begin(), next.blocks.end(), older);
   Index n = 3;
   for (Block& block : next.blocks) {
@@ -305,27 +270,37 @@ void RestingMap::exchange(State& state, const std::vector<LandmarkId>& active, b
     block.offset = static_cast<int>(n);
     n += block.size();
   }
-  for (const Block& block : entering)
+  for (const Block& block : in.blocks)
     for (int i = 0; i < block.size(); ++i) to_entering.push_back(next.find(block.id)->offset + i);
   next.x.resize(n);
   next.x(to_state) = state.x(from_state);
-  next.x(to_entering) = x_in;
+  next.x(to_entering) = in.x;
 
-  // Panel by panel: X, the covariance of what rests with the former state, and E, with what enters;
-  // from both the new C, and the covariance of what leaves with all that rests.
-  RowsByPanel rows_in(in), rows_out(out_slots);
+  // Panel by panel, each while it is in the cache: what rests follows; X, its covariance with the
+  // former state, and E, with what enters; from both the new C, and the covariance of what leaves
+  // with all that rests.
+  RowsByPanel rows_in(in.rows), rows_out(out_slots);
   Eigen::MatrixXd P_in(n_in, n_in), C_support, X(kRows, n_before), E(kRows, n_in);
-  const Index columns_before = C_.cols();
-  C_.setCols(std::max(columns_before, n));
+  C_.setCols(std::max(C_.cols(), n));
+  Eigen::MatrixX3d step = Eigen::MatrixX3d::Zero(C_.panels() * kRows, 3);
   for (Index panel = 0; panel < C_.panels(); ++panel) {
     X.setZero();
-    if (passage) passage->carry(C_, panel, C_support, X.data());
+    if (passage) {
+      passage->gather(C_, panel, C_support);
+      step.middleRows<kRows>(panel * kRows) = passage->step(C_support);
+      addPanelProduct(P_.owed().column(panel, first_owed), At.rows(), C_support.data(), At.data(),
+                      At.rows(), At.cols());
+      const Index count = std::min(kRows, variance_.size() - panel * kRows);
+      variance_.segment(panel * kRows, count) -=
+          P_.owed().panel(panel).rightCols(At.rows()).topRows(count).rowwise().squaredNorm();
+      passage->carry(C_, panel, C_support, X.data());
+    }
     P_.readRows(panel, columns_in, E.data());
     rows_in.of(panel, [&](Index row, Index i) { P_in.row(i) = E.row(row); });
-    if (invariant) E += X.col(2) * g_in.transpose();
+    E += X.col(2) * in.g.transpose();
     rows_out.of(panel, [&](Index row, Index i) {
       X.row(row) = state.P.row(out[at(i)]);
-      E.row(row) = X_in.col(out[at(i)]).transpose();
+      E.row(row) = in.X.col(out[at(i)]).transpose();
     });
     const Eigen::MatrixXd X_out = X(Eigen::all, out);
     P_.writeRows(panel, out_slots, X_out.data());
@@ -337,15 +312,17 @@ void RestingMap::exchange(State& state, const std::vector<LandmarkId>& active, b
         C.row(row).setZero();
   }
   C_.setCols(n);
-  P_.forgive(in);
+  P_.forgive(in.rows);
+  for (const Block& block : blocks_)
+    x_.segment(block.offset, block.size()) =
+        moved(block, step.middleRows(block.offset, block.size()));
 
-  const Eigen::VectorXd w_in = h_in + 0.5 * state.P(2, 2) * g_in;
   P_in =
-      (0.5 * (P_in + P_in.transpose()) + g_in * w_in.transpose() + w_in * g_in.transpose()).eval();
+      (0.5 * (P_in + P_in.transpose()) + in.g * in.w.transpose() + in.w * in.g.transpose()).eval();
   next.P.resize(n, n);
   next.P(to_state, to_state) = state.P(from_state, from_state);
-  next.P(to_entering, to_state) = X_in(Eigen::all, from_state);
-  next.P(to_state, to_entering) = X_in(Eigen::all, from_state).transpose();
+  next.P(to_entering, to_state) = in.X(Eigen::all, from_state);
+  next.P(to_state, to_entering) = in.X(Eigen::all, from_state).transpose();
   next.P(to_entering, to_entering) = P_in;
 
   const auto middle = static_cast<std::ptrdiff_t>(blocks_.size());

@@ -11,6 +11,8 @@
 
 namespace colonnade {
 
+class Passage;
+
 /// The part of a large map the robot does not work with at present. A step of the filter costs
 /// nothing for it: what it learns stands in State::transfer, and follows when blocks are exchanged
 /// (compressed filter; Guivant and Nebot, IEEE T-RA 17(3), 2001). With the plain EKF an exchange
@@ -44,9 +46,9 @@ class RestingMap {
 
   /// Brings the resting part up to date and exchanges blocks: afterwards the state holds the blocks
   /// of `active` (ascending; all of them known here or there), and the others rest. Of what the
-  /// resting blocks gained, parts are left out for good that lower no judged variance (of blocks
-  /// evenly spread) by more than a share of `negligible`: the covariance of all stays the true one
-  /// plus something positive semidefinite.
+  /// resting blocks gained, parts are left out for good that lower no judged variance (of
+  /// parameters evenly spread) by more than a share of `negligible`: the covariance of all stays
+  /// the true one plus something positive semidefinite.
   void exchange(State& state, const std::vector<LandmarkId>& active, bool invariant,
                 double negligible);
   /// A part of the work the exchanges left.
@@ -58,13 +60,16 @@ class RestingMap {
     Eigen::Index offset = 0;
     Eigen::Index size = 0;
   };
-  class Passage;
-  /// Brings values, variances and what is owed up to date.
-  void follow(const Passage& passage, double negligible);
+  struct Entering;
+  /// By `C`, the covariance of these blocks with the state at the last exchange.
+  Entering entering(std::vector<Block> blocks, const State& state, const Eigen::MatrixXd& C) const;
+  /// A^T with C A (C A)^T what the covariance of the resting part loses, but for what is
+  /// negligible.
+  Eigen::MatrixXd gain(const Passage& passage, double negligible) const;
   /// Slots for blocks that come to rest; their offsets become those.
   void giveSlots(std::vector<Block>& leaving);
   BlockVector moved(const Block& block, const Eigen::Ref<const Eigen::MatrixX3d>& step) const;
-  /// The rows by which it is judged what is negligible: all, or those of blocks evenly spread.
+  /// The rows by which it is judged what is negligible: all, or some evenly spread.
   std::vector<Eigen::Index> judged(double negligible) const;
   /// How far the block's own turn G has gone at `y` since its covariance was last transported.
   BlockVector turnOfWay(const Block& block, const BlockVector& y) const;
