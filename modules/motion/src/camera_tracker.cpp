@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "colonnade/motion/camera_tracker.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <vector>
 
+#include "alignment_checks.hpp"
 #include "camera_by_wheels.hpp"
+#include "former_velocity.hpp"
 #include "opencv_odometry.hpp"
 #include "rgbd_alignment.hpp"
 #include "rgbd_pyramid.hpp"
@@ -18,21 +18,9 @@ namespace colonnade {
 namespace {
 
 constexpr int kLevels = 4;
-constexpr int kMinPoints = 50;  ///< of one kind, to rely on it
-/// Of brightness, in a picture full of it: before bare walls there are a few hundred.
-constexpr int kMuchTexture = 1500;
 constexpr double kLongestCoast_s = 1.0;
 constexpr double kPriorSigmas = 6.0;      ///< times the wheels', so that they hardly count twice
-constexpr double kSurprise = 22.46;       ///< chi squared, 6 degrees of freedom, 0.1 %
 constexpr double kContradiction = 12.59;  ///< 5 %: what it costs is little
-
-Eigen::Isometry3d scaledMotion(const Eigen::Isometry3d& T, double factor) {
-  Eigen::Isometry3d out = Eigen::Isometry3d::Identity();
-  const Eigen::AngleAxisd turn(T.linear());
-  out.linear() = Eigen::AngleAxisd(factor * turn.angle(), turn.axis()).toRotationMatrix();
-  out.translation() = factor * T.translation();
-  return out;
-}
 
 }  // namespace
 
@@ -52,12 +40,9 @@ struct CameraTracker::Impl {
   double last_stamp_s = 0.0;
   std::optional<Reference> key;
   RgbdPyramid previous;  ///< the former frame, to become the next key frame
-  bool previous_is_key = false;
   Eigen::Isometry3d T_key_previous = Eigen::Isometry3d::Identity();
   Matrix6 covariance_key_previous = Matrix6::Zero();
-  Eigen::Isometry3d velocity = Eigen::Isometry3d::Identity();  ///< motion in velocity_dt_s
-  Matrix6 velocity_covariance = Matrix6::Zero();               ///< of that motion
-  double velocity_dt_s = 0.0;
+  FormerVelocity velocity;
   double coasted_s = 0.0;
   /// Of the former frame.
   std::optional<OdometryReading> odometry_previous;
@@ -65,32 +50,7 @@ struct CameraTracker::Impl {
   std::optional<CameraByWheels> by_wheels;  ///< since the former frame
   CameraMotion motion;
 
-  bool isPlausible(const Eigen::Isometry3d& T_previous_camera, double dt_s) const {
-    const double time_s = std::max(dt_s, 0.02) + coasted_s;
-    return T_previous_camera.translation().norm() < options.max_speed_m_s * time_s + 0.05 &&
-           Eigen::AngleAxisd(T_previous_camera.linear()).angle() <
-               options.max_turn_rate * time_s + radians(2.0);
-  }
-
-  /// Far from what is expected: perhaps a wrong minimum.
-  static bool isSurprising(const Eigen::Isometry3d& T_previous_camera, const MotionPrior& prior) {
-    const Vector6 e = logSe3(prior.T_reference_current.inverse() * T_previous_camera);
-    return e.dot(prior.information * e) > kSurprise;
-  }
-
-  bool seesTheSame(const Alignment& alignment) const {
-    constexpr double kMinAgreement = 0.15;
-    return alignment.photometric_count >= kMinPoints &&
-           alignment.photometric_share >= options.min_share &&
-           alignment.gradient_agreement >= kMinAgreement;
-  }
-
-  bool isSound(const Alignment& alignment) const {
-    return alignment.converged &&
-           (seesTheSame(alignment) ||
-            (alignment.photometric_count < kMinPoints && alignment.surface_count >= kMinPoints &&
-             alignment.surface_share >= options.min_share));
-  }
+  double timeSinceTracked(double dt_s) const { return std::max(dt_s, 0.02) + coasted_s; }
 
   /// Nothing from an odometry that jumps.
   std::optional<CameraByWheels> byWheels(const Frame& frame, double dt_s) const {
@@ -100,7 +60,9 @@ struct CameraTracker::Impl {
     if (frame.index != *last_index + 1) now.increment_covariance.reset();
     auto moved = cameraByWheels(*odometry_previous, now, T_robot_camera_previous,
                                 frame.T_robot_camera, options);
-    return isPlausible(moved.T_previous_camera, dt_s) ? std::optional(moved) : std::nullopt;
+    return isPlausible(moved.T_previous_camera, timeSinceTracked(dt_s), options)
+               ? std::optional(moved)
+               : std::nullopt;
   }
 
   Matrix6 covarianceOf(const Alignment& alignment,
@@ -120,17 +82,6 @@ struct CameraTracker::Impl {
     return e.dot(S.llt().solve(e)) > kContradiction;
   }
 
-  Eigen::Isometry3d predicted(double dt_s) const {
-    if (velocity_dt_s <= 0.0) return Eigen::Isometry3d::Identity();
-    return scaledMotion(velocity, std::clamp(dt_s / velocity_dt_s, 0.0, 5.0));
-  }
-
-  MotionSource sourceOf(const Alignment& alignment) const {
-    if (alignment.photometric_count < kMinPoints) return MotionSource::kIcp;
-    if (alignment.surface_count < kMinPoints) return MotionSource::kPhotometric;
-    return MotionSource::kPhotometricIcp;
-  }
-
   void makePreviousTheKey() {
     key = makeReference(previous);
     T_key_previous = Eigen::Isometry3d::Identity();
@@ -147,53 +98,12 @@ struct CameraTracker::Impl {
     return covariance;
   }
 
-  bool keyIsWornOut(const Alignment& alignment) const {
-    const auto& T = alignment.T_reference_current;
-    const double share = alignment.photometric_count == 0
-                             ? alignment.surface_share
-                             : std::min(alignment.photometric_share, alignment.surface_share);
-    return T.translation().norm() > options.keyframe_distance_m ||
-           Eigen::AngleAxisd(T.linear()).angle() > options.keyframe_angle ||
-           share < options.keyframe_share;
-  }
-
   /// The motion by the wheels, at `kPriorSigmas` times its sigmas, so that their word hardly
   /// counts again when the result is fused with them; without wheels the former velocity.
   MotionPrior priorOfMotion(double dt_s) const {
-    if (!by_wheels) return priorOfVelocity(dt_s);
+    if (!by_wheels) return velocity.prior(dt_s, options);
     return {by_wheels->T_previous_camera,
             (kPriorSigmas * kPriorSigmas * by_wheels->covariance).inverse()};
-  }
-
-  /// The former velocity, less sure in each direction by a random change of it. What nothing
-  /// measures errs the same way frame after frame, so there the sigmas add, not the variances.
-  MotionPrior priorOfVelocity(double dt_s) const {
-    const double time_s = std::max(dt_s, 0.01);
-    Vector6 change;
-    change << Eigen::Vector3d::Constant(options.coasting_speed_sigma_m_s * time_s),
-        Eigen::Vector3d::Constant(options.coasting_turn_sigma * time_s);
-    const double most =
-        std::max(1.0, 0.5 * options.max_speed_m_s / options.coasting_speed_sigma_m_s);
-    MotionPrior prior;
-    Vector6 inverse_variances = Vector6::Constant(1.0 / (most * most));
-    Matrix6 directions = Matrix6::Identity();
-    if (velocity_dt_s > 0.0) {
-      prior.T_reference_current = predicted(dt_s);
-      const Vector6 scale = (time_s / velocity_dt_s) * change.cwiseInverse();
-      const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(
-          Matrix6(scale.asDiagonal() * velocity_covariance * scale.asDiagonal()));
-      directions = eigen.eigenvectors();
-      for (int i = 0; i < 6; ++i) {
-        const double sigma = std::sqrt(std::max(0.0, eigen.eigenvalues()(i))) + 1.0;
-        inverse_variances(i) = 1.0 / std::pow(std::min(sigma, most), 2);
-      }
-    }
-    const Vector6 inverse_change = change.cwiseInverse();
-    prior.information =
-        inverse_change.asDiagonal() *
-        Matrix6(directions * inverse_variances.asDiagonal() * directions.transpose()) *
-        inverse_change.asDiagonal();
-    return prior;
   }
 
   MotionPrior fromKey(const MotionPrior& of_motion) const {
@@ -207,16 +117,16 @@ struct CameraTracker::Impl {
     const std::vector<Eigen::Isometry3d> still{T_key_previous};
     const auto no_other = by_wheels ? std::vector<Eigen::Isometry3d>{} : still;
     Alignment both = align(*key, current, prior, no_other, alignment_options);
-    if (by_wheels && !seesTheSame(both))
-      both = align(*key, current, fromKey(priorOfVelocity(dt_s)), still, alignment_options);
-    const bool seen = seesTheSame(both);
+    if (by_wheels && !seesTheSame(both, options))
+      both = align(*key, current, fromKey(velocity.prior(dt_s, options)), still, alignment_options);
+    const bool seen = seesTheSame(both, options);
     const bool contradicts = seen && contradictsWheels(both);
     if ((seen && !contradicts) || !options.use_surfaces) return both;
     AlignmentOptions surfaces_only = alignment_options;
     surfaces_only.use_photometric = false;
     const Alignment surfaces = align(*key, current, prior, no_other, surfaces_only);
-    if (seen && !isSound(surfaces)) return both;
-    motion.contradicts_wheels = contradicts && both.photometric_count >= kMuchTexture;
+    if (seen && !isSound(surfaces, options)) return both;
+    motion.contradicts_wheels = contradicts && isFullOfTexture(both);
     return surfaces;
   }
 
@@ -240,14 +150,15 @@ struct CameraTracker::Impl {
       const Eigen::Isometry3d T_previous_camera =
           T_key_previous.inverse() * alignment.T_reference_current;
       const bool worth_a_second_look = attempt == 0 && isSurprising(T_previous_camera, prior);
-      if (isSound(alignment) && isPlausible(T_previous_camera, dt_s) && !worth_a_second_look) {
+      if (isSound(alignment, options) &&
+          isPlausible(T_previous_camera, timeSinceTracked(dt_s), options) && !worth_a_second_look) {
         motion.T_previous_camera = T_previous_camera;
         motion.covariance = covarianceOf(alignment, T_previous_camera);
         motion.source = sourceOf(alignment);
         T_key_previous = alignment.T_reference_current;
         covariance_key_previous = alignment.covariance;
         // Where brightness was left out, the pose at the key frame is not worth another look at it.
-        if (keyIsWornOut(alignment) || motion.contradicts_wheels) key.reset();
+        if (isWornOut(alignment, options) || motion.contradicts_wheels) key.reset();
         return true;
       }
       if (attempt == 0) makePreviousTheKey();
@@ -286,9 +197,7 @@ const CameraMotion& CameraTracker::track(const Frame& frame) {
     } else {
       self.coast(dt_s);
     }
-    self.velocity = self.motion.T_previous_camera;
-    self.velocity_covariance = self.motion.covariance;
-    self.velocity_dt_s = dt_s;
+    self.velocity = {self.motion.T_previous_camera, self.motion.covariance, dt_s};
     self.motion.previous_index = self.last_index;
   }
   self.last_index = frame.index;

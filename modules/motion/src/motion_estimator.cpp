@@ -49,7 +49,6 @@ struct MotionEstimator::Impl {
   Pose2 previous_increment;  ///< for constant velocity
   double previous_dt_s = 0.0;
   double coasted_s = 0.0;
-  bool brightness_contradicts = false;  ///< the wheels, in this frame
 
   bool mayUseOdometry() const { return options.source == "auto" || options.source == "odometry"; }
   bool mayUseVisual() const { return options.source == "auto" || options.source == "visual"; }
@@ -82,10 +81,8 @@ struct MotionEstimator::Impl {
   }
 
   std::optional<MotionIncrement> byCamera(const Frame& frame, const MountingAtFrame& mounting) {
-    brightness_contradicts = false;
     if (!mayUseVisual() || frame.depth_m.empty()) return std::nullopt;
     const CameraMotion& motion = tracker->track(frame);
-    brightness_contradicts = motion.contradicts_wheels;
     if (!motion.previous_index || motion.previous_index != previous_index) return std::nullopt;
     return reduceToPlane(motion, T_robot_camera_previous, mounting);
   }
@@ -112,6 +109,10 @@ struct MotionEstimator::Impl {
            kStill + options.floor_turn_per_m * motion.T_previous_robot.translation().norm();
   }
 
+  bool contradictsWheels(const Frame& frame, const MotionIncrement& camera) const {
+    return camera.source != MotionSource::kFloor && tracker->track(frame).contradicts_wheels;
+  }
+
   /// What surfaces do not tell rests on wheels that brightness contradicts.
   static MotionIncrement fuseDoubted(MotionIncrement wheels, const MotionIncrement& camera) {
     doubt(wheels);
@@ -127,7 +128,8 @@ struct MotionEstimator::Impl {
       camera.reset();
     if (wheels && camera && camera->source != MotionSource::kConstantVelocity &&
         isWithinReach(*wheels))
-      return brightness_contradicts ? fuseDoubted(*wheels, *camera) : fuse(*wheels, *camera);
+      return contradictsWheels(frame, *camera) ? fuseDoubted(*wheels, *camera)
+                                               : fuse(*wheels, *camera);
     if (wheels) return *wheels;
     return camera ? *camera : coast(dt_s);
   }
