@@ -19,11 +19,13 @@ using testing::Scene;
 /// A camera on wheels that moves by `true_step` in each frame, while the wheels read `read_step`.
 class BothOdometries : public ::testing::Test {
  protected:
-  enum class View { kScene, kDark, kOpenEnd, kMovingLight };
+  enum class View { kScene, kDark, kOpenEnd, kMovingLight, kWalker };
   MotionIncrement drive(const Pose2& true_step, const Pose2& read_step,
                         const Eigen::Vector3d& wheel_sigmas, View view = View::kScene) {
     MotionEstimator estimator(options_, std::make_shared<CameraTracker>(options_));
-    Scene scene = Scene::corridor(true, view != View::kOpenEnd);
+    const bool closed = view != View::kOpenEnd && view != View::kWalker;
+    Scene scene = Scene::corridor(true, closed);
+    if (view == View::kWalker) scene.person = testing::Person{{1.8, 0.3, 0.0}};
     // Only the floor and the wall ahead: nothing but brightness tells the place across.
     if (view == View::kMovingLight) scene.walls = {scene.walls.front(), scene.walls.back()};
     MotionIncrement motion;
@@ -41,6 +43,7 @@ class BothOdometries : public ::testing::Test {
         frame.depth_m.setTo(0.0f);
       }
       if (view == View::kMovingLight) scene.pattern_shift.y() -= 0.1;
+      if (scene.person) scene.person->p_feet.x() += 0.8 * true_step.x;
       motion = estimator.increment(frame);
       T_world_robot = T_world_robot * true_step;
       T_odom_robot = T_odom_robot * read_step;
@@ -114,6 +117,15 @@ TEST_F(BothOdometries, WhereBrightnessContradictsTheWheelsSurfacesCount) {
   EXPECT_EQ(motion.source, MotionSource::kOdometryVisual);
   EXPECT_NEAR(motion.T_previous_robot.phi, step.phi, radians(0.4));
   EXPECT_LT(std::sqrt(motion.covariance(2, 2)), radians(0.8));
+}
+
+TEST_F(BothOdometries, SomeoneWhoWalksAlongDoesNotCarryTheRobot) {
+  // In the open corridor only his surfaces tell the way.
+  const Eigen::Vector3d sigmas(0.01, 0.01, radians(1.0));
+  const auto motion = drive({0.09, 0.0, 0.0}, {0.094, 0.0, 0.0}, sigmas, View::kWalker);
+  EXPECT_EQ(motion.source, MotionSource::kOdometryVisual);
+  EXPECT_NEAR(motion.T_previous_robot.x, 0.09, 0.003);
+  EXPECT_LT(std::sqrt(motion.covariance(0, 0)), 0.5 * sigmas.x());
 }
 
 TEST_F(BothOdometries, AConflictKeepsTheWheelsWithMoreDoubt) {

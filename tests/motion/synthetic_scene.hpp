@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <opencv2/core.hpp>
+#include <optional>
 #include <vector>
 
 #include "colonnade/base/angle.hpp"
@@ -20,11 +21,23 @@ struct Wall {
   double offset;
 };
 
+/// Someone flat, upright across the x axis, with a pattern that goes along.
+struct Person {
+  Eigen::Vector3d p_feet;
+  double width_m = 0.5;
+  double height_m = 1.8;
+
+  bool isHit(const Eigen::Vector3d& p) const {
+    return std::abs(p.y() - p_feet.y()) < 0.5 * width_m && p.z() < p_feet.z() + height_m;
+  }
+};
+
 /// Planes under a smooth pattern (or none), rendered exactly, one ray a pixel.
 struct Scene {
   std::vector<Wall> walls;
   bool textured = true;
   Eigen::Vector3d pattern_shift = Eigen::Vector3d::Zero();  ///< as of a light that moves
+  std::optional<Person> person;
   double depth_noise = 0.0;  ///< sigma at 1 m, growing with the square of the depth
 
   static Scene corridor(bool textured, bool closed) {
@@ -64,13 +77,19 @@ struct Scene {
           if (std::abs(along) > 1e-9 && depth > 0.0 && depth < nearest) nearest = depth;
         }
         const bool seen = nearest < 1e8;
+        Eigen::Vector3d of_pattern = origin + nearest * ray - pattern_shift;
+        if (person) {
+          const double depth = (person->p_feet.x() - origin.x()) / ray.x();
+          if (depth > 0.0 && depth < nearest && person->isHit(origin + depth * ray)) {
+            nearest = depth;
+            of_pattern = origin + depth * ray - person->p_feet;
+          }
+        }
         const double noise = depth_noise > 0.0 ? random.gaussian(depth_noise) : 0.0;
         frame.depth_m.at<float>(v, u) =
             nearest < 7.0 ? static_cast<float>(nearest + noise * nearest * nearest) : 0.0f;
         frame.gray.at<std::uint8_t>(v, u) =
-            seen ? static_cast<std::uint8_t>(
-                       std::lround(brightness(origin + nearest * ray - pattern_shift)))
-                 : 128;
+            seen ? static_cast<std::uint8_t>(std::lround(brightness(of_pattern))) : 128;
       }
     }
     return frame;

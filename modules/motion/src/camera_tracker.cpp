@@ -13,6 +13,7 @@
 #include "rgbd_alignment.hpp"
 #include "rgbd_pyramid.hpp"
 #include "se3.hpp"
+#include "standing_part.hpp"
 
 namespace colonnade {
 namespace {
@@ -110,9 +111,21 @@ struct CameraTracker::Impl {
     return {T_key_previous * of_motion.T_reference_current, of_motion.information};
   }
 
+  /// The key frame without what moved meanwhile, as far as wheels can tell.
+  std::optional<Reference> standingPartOfKey(const RgbdPyramid& current) const {
+    if (!by_wheels || !options.use_surfaces) return std::nullopt;
+    const Matrix6 Ad = adjoint(by_wheels->T_previous_camera.inverse());
+    return standingPart(*key, current, T_key_previous * by_wheels->T_previous_camera,
+                        by_wheels->covariance + Ad * covariance_key_previous * Ad.transpose());
+  }
+
   /// Brightness and surfaces, or surfaces alone: before bare walls, in a dark or overexposed image.
   Alignment directly(const RgbdPyramid& current, const MotionPrior& of_motion, double dt_s) {
     const MotionPrior prior = fromKey(of_motion);
+    if (const auto standing = standingPartOfKey(current)) {
+      const Alignment both = align(*standing, current, prior, {}, alignment_options);
+      if (seesTheSame(both, options) && !contradictsWheels(both)) return both;
+    }
     // Standing still is a second start, but wheels know better, unless they slip.
     const std::vector<Eigen::Isometry3d> still{T_key_previous};
     const auto no_other = by_wheels ? std::vector<Eigen::Isometry3d>{} : still;

@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+
+#include "rgbd_alignment.hpp"
+
+namespace colonnade {
+
+/// The reference without what moved, such as people, as told by surfaces that are not where the
+/// wheels say they should be now. Nothing where nothing moved, and where so much did that it must
+/// have been the wheels.
+/// `T_reference_current`, `covariance`: the camera now by the wheels; covariance of e (metres, then
+/// radians, axes of the camera now) in T_true = T * exp(e).
+std::optional<Reference> standingPart(const Reference& reference, const RgbdPyramid& current,
+                                      const Eigen::Isometry3d& T_reference_current,
+                                      const Matrix6& covariance);
+
+}  // namespace colonnade
