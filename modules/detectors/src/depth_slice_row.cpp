@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "colonnade/base/vector_kernel.hpp"
+#include "depth_column.hpp"
 
 namespace colonnade {
 
@@ -75,7 +76,8 @@ int placeRow(const float* depth_m, int first, int last, const RayRow& rays, cons
       const auto index = static_cast<std::int32_t>(known_column + 0.5);
       auto band = static_cast<std::int32_t>((known_height - low) * per_band);
       band = band < bands ? band : bands - 1;
-      bins[u] = inside ? index * bands + band : -1;
+      const std::int32_t beside = index % kColumnsTogether;
+      bins[u] = inside ? (index - beside) * bands + band * kColumnsTogether + beside : -1;
       zs[u] = static_cast<float>(depth * ahead);
       offsets[u] = static_cast<float>(known_column - index);
     }
