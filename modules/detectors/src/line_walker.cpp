@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 
 #include "colonnade/base/vector_kernel.hpp"
 
@@ -53,7 +54,7 @@ inline __attribute__((always_inline)) double shiftAt(const std::uint8_t* here, s
 
 }  // namespace
 
-Walker::Walker(const cv::Mat& gray, const cv::Mat& edges, bool steep)
+Walker::Walker(const cv::Mat& gray, const cv::Mat& edges, EdgeBits bits, bool steep)
     : gray_(gray.data),
       gray_s_(steep ? static_cast<std::ptrdiff_t>(gray.step[0]) : 1),
       gray_t_(steep ? 1 : static_cast<std::ptrdiff_t>(gray.step[0])),
@@ -62,7 +63,7 @@ Walker::Walker(const cv::Mat& gray, const cv::Mat& edges, bool steep)
       edges_t_(steep ? 1 : static_cast<std::ptrdiff_t>(edges.step[0])),
       length_(steep ? edges.rows : edges.cols),
       width_(steep ? edges.cols : edges.rows),
-      all_(edgeBits(edges, steep)),
+      all_(std::move(bits)),
       free_(all_),
       low_(static_cast<std::size_t>(length_)),
       span_(low_.size()) {}
@@ -108,9 +109,14 @@ int Walker::nearest(const Straight& line, int s, int low, std::uint64_t row) {
   return best;
 }
 
-void Walker::measure(Samples& samples) const {
+void Walker::measure(Samples& samples, SampleSpan known) const {
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const auto [s, t] = samples.pixel(i);
+    while (!known.empty() && known.s[0] < s) known = known.subspan(1);
+    if (!known.empty() && known.s[0] == s && known.t[0] == t) {
+      samples.setAcross(i, known.across[0]);
+      continue;
+    }
     const std::uint8_t* const here = gray_ + s * gray_s_ + t * gray_t_;
     // The constant step lets the compiler see that the neighbours of steep lines lie side by side.
     samples.setAcross(

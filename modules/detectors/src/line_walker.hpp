@@ -16,7 +16,8 @@ namespace colonnade {
 /// gradients that point along +1 and -1 across (t).
 class Walker {
  public:
-  Walker(const cv::Mat& gray, const cv::Mat& edges, bool steep);
+  /// bits: of the edges, rows as steps for steep lines, columns for flat ones.
+  Walker(const cv::Mat& gray, const cv::Mat& edges, EdgeBits bits, bool steep);
 
   int steps() const { return length_; }
 
@@ -25,8 +26,9 @@ class Walker {
   void collectAll(const Straight& line, double reach, int sign, Samples& samples);
   /// The same of those not taken yet.
   void collectFree(const Straight& line, double reach, Samples& rising, Samples& falling);
-  /// Finds out where exactly the gradient of each is greatest.
-  void measure(Samples& samples) const;
+  /// Finds out where exactly the gradient of each is greatest. Those that are among `known` have
+  /// been measured already.
+  void measure(Samples& samples, SampleSpan known) const;
   void take(SampleSpan samples, int sign);
   /// Sector of an edge pixel's gradient.
   int sectorAt(double s, int t) const {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 #include <tuple>
+#include <utility>
 
 #include "line_refinement.hpp"
 
@@ -95,14 +96,21 @@ class StretchCosts {
 
 /// Where a second straight line begins, if two explain the samples so much better than one that
 /// noise cannot be the reason: the feet of a wall and of a door in it, some centimetres farther
-/// back, look like one slanting line (F test for a break at an unknown place, after G. C. Chow, "Tests
-/// of equality between sets of coefficients in two linear regressions", Econometrica 1960).
+/// back, look like one slanting line (F test for a break at an unknown place, after G. C. Chow,
+/// "Tests of equality between sets of coefficients in two linear regressions", Econometrica 1960).
 std::optional<std::size_t> breakOf(SampleSpan samples, double correlated_samples) {
   constexpr std::size_t kLeast = 10;  // samples of a part
   constexpr double kLeastSigma_px = 0.1;
   constexpr double kImprobable = 16.0;  // chi-squared, the place being free
   const std::size_t n = samples.size();
   if (n < 2 * kLeast) return std::nullopt;
+  const auto one = leastSquares(samples);
+  if (!one) return std::nullopt;
+  const double least_gain = kImprobable * correlated_samples * kLeastSigma_px * kLeastSigma_px;
+  // Parts cannot gain more than there is: most lines are so straight that no place need be looked
+  // for. The margin is for rounding, which the sums below do otherwise.
+  constexpr double kMargin = 0.99;
+  if (sumOfSquaredResiduals(samples, one->line) < kMargin * least_gain) return std::nullopt;
   const StretchCosts cost(samples);
   std::size_t best = kLeast;
   double least = cost(0, n);
@@ -118,10 +126,9 @@ std::optional<std::size_t> breakOf(SampleSpan samples, double correlated_samples
   if (whole - least < kImprobable * correlated_samples * variance) return std::nullopt;
   // Lenses bend lines by less than this.
   constexpr double kApart_px = 0.5;
-  const auto one = leastSquares(samples);
   for (const SampleSpan part : {samples.first(best), samples.subspan(best)}) {
     const auto fit = leastSquares(part);
-    if (!one || !fit) continue;
+    if (!fit) continue;
     for (const double s : {part.s[0], part.s[part.size() - 1]})
       if (std::abs(one->line.across(s) - fit->line.across(s)) > kApart_px) return best;
   }
@@ -182,9 +189,9 @@ bool isFitted(const Straight& line, SampleSpan samples, bool steep, int sign,
 
 }  // namespace
 
-LineRefiner::LineRefiner(const cv::Mat& gray, const cv::Mat& edges, bool steep,
+LineRefiner::LineRefiner(const cv::Mat& gray, const cv::Mat& edges, EdgeBits bits, bool steep,
                          const LineRefinementOptions& options)
-    : walker_(gray, edges, steep),
+    : walker_(gray, edges, std::move(bits), steep),
       steep_(steep),
       options_(options),
       rising_(walker_.steps()),
@@ -199,12 +206,12 @@ void LineRefiner::refine(const Straight& guess, RefinedLines& lines) {
     if (static_cast<double>(beside.size()) < options_.min_support * 0.7 * options_.min_length_px) {
       continue;
     }
-    walker_.measure(beside);
+    walker_.measure(beside, {});
     const SampleSpan candidates = beside;
     const auto agreed = consensus(candidates, options_.inlier_px);
     if (!agreed || isFitted(*agreed, candidates, steep_, sign, lines)) continue;
     walker_.collectAll(*agreed, 2.0 * options_.inlier_px, sign, beside_);
-    walker_.measure(beside_);
+    walker_.measure(beside_, candidates);
     some_.assignWithin(beside_, *agreed, options_.inlier_px);
     const auto fitted = leastSquares(some_);
     if (!fitted) continue;
@@ -295,8 +302,9 @@ RefinedLines withoutDuplicates(RefinedLines lines, double duplicate_px) {
 RefinedLines refineLines(const cv::Mat& gray, const EdgeLines& edges,
                          const LineRefinementOptions& options) {
   if (gray.empty() || gray.type() != CV_8UC1 || edges.edges.size() != gray.size()) return {};
-  LineRefiner steep(gray, edges.edges, true, options);
-  LineRefiner flat(gray, edges.edges, false, options);
+  auto [steep_bits, flat_bits] = bitsOfBoth(edges.edges);
+  LineRefiner steep(gray, edges.edges, std::move(steep_bits), true, options);
+  LineRefiner flat(gray, edges.edges, std::move(flat_bits), false, options);
   RefinedLines lines;
   for (const auto& seed : edges.lines) {
     const double theta = radians(seed.theta_index);
