@@ -111,9 +111,9 @@ DepthProfile makeDepthProfile(const Frame& frame, const DepthProfileOptions& opt
   const SliceGrid grid{
       camera.height(), options.min_height_m, options.max_height_m, DepthProfile::kBands, columns,
       middle,          profile.focal_px};
-  std::vector<std::int32_t> bin(profile.columns.size());
+  std::vector<int> blocks(profile.columns.size() / kPlacedTogether + 1);
+  std::vector<std::int32_t> bin(blocks.size() * kPlacedTogether);
   std::vector<float> z(bin.size()), offset(bin.size());
-  std::vector<int> blocks(bin.size() / kPlacedTogether + 1);
   std::vector<RayRow> rays;  // of the rows read
   for (int v = options.row_step / 2; v < frame.depth_m.rows; v += options.row_step)
     rays.emplace_back(camera, v, forward);
@@ -127,7 +127,7 @@ DepthProfile makeDepthProfile(const Frame& frame, const DepthProfileOptions& opt
                                  {bin.data(), z.data(), offset.data(), blocks.data()});
       for (int block = 0; block < count; ++block) {
         const auto first = static_cast<std::size_t>(blocks[static_cast<std::size_t>(block)]);
-        for (std::size_t u = first; u < std::min(first + kPlacedTogether, bin.size()); ++u)
+        for (std::size_t u = first; u < first + kPlacedTogether; ++u)
           if (bin[u] >= 0) bins.add(static_cast<std::size_t>(bin[u]), z[u], offset[u]);
       }
       v += options.row_step;

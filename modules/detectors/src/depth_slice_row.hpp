@@ -23,7 +23,8 @@ struct SliceGrid {
 constexpr int kPlacedTogether = 16;
 
 /// Where the pixels of a row belong. The bins of kColumnsTogether neighbouring columns follow one
-/// another for each band, then those of the next band, then the next columns.
+/// another for each band, then those of the next band, then the next columns. There is room for
+/// whole blocks.
 struct SlicePlaces {
   std::int32_t* bin;  ///< negative: in none
   float* z;           ///< forward, m
