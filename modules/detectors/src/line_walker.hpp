@@ -26,9 +26,8 @@ class Walker {
   void collectAll(const Straight& line, double reach, int sign, Samples& samples);
   /// The same of those not taken yet.
   void collectFree(const Straight& line, double reach, Samples& rising, Samples& falling);
-  /// Finds out where exactly the gradient of each is greatest. Those that are among `known` have
-  /// been measured already.
-  void measure(Samples& samples, SampleSpan known) const;
+  /// Finds out where exactly the gradient of each is greatest.
+  void measure(Samples& samples) const;
   void take(SampleSpan samples, int sign);
   /// Sector of an edge pixel's gradient.
   int sectorAt(double s, int t) const {
