@@ -3,8 +3,9 @@
 #pragma once
 
 /// Before a function of plain loops: compiled for wider vectors as well, and for those with masks,
-/// which conditions in a loop gain from; each runs where the processor has them. The bits stay the same, since -ffp-contract=off keeps products and sums
-/// apart. Sanitizers do not go with functions chosen at load time.
+/// which conditions in a loop gain from; each runs where the processor has them. The bits stay the
+/// same, since -ffp-contract=off keeps products and sums apart. Sanitizers do not go with functions
+/// chosen at load time.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
     !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define COLONNADE_VECTOR_KERNEL \
