@@ -12,7 +12,7 @@ namespace colonnade {
 constexpr int kColumnsTogether = 8;
 
 /// A pixel of each of so many neighbouring columns.
-struct alignas(64) DepthSlot {
+struct DepthSlot {
   std::array<float, kColumnsTogether> z;       ///< m, positive; infinite where there is none
   std::array<float, kColumnsTogether> offset;  ///< of the rays from the middle of their column
 };
