@@ -21,9 +21,9 @@ constexpr std::size_t kBands = DepthProfile::kBands;
 /// All pixels, sorted into columns and bands.
 class Bins {
  public:
-  /// rows: the pixels a bin has room for.
+  /// rows: the pixels a bin has room for, and some more: two of a row may fall into one.
   Bins(int columns, int rows)
-      : rows_(static_cast<std::size_t>(rows + 3) / 4 * 4),
+      : rows_(static_cast<std::size_t>(rows + 7) / 8 * 8),
         counts_(kBands * static_cast<std::size_t>(columns / kColumnsTogether + 1)),
         slots_(std::make_unique_for_overwrite<DepthSlot[]>(counts_.size() * rows_)),
         inverse_(kBands * rows_) {}
@@ -80,7 +80,7 @@ class Bins {
   }
 
  private:
-  std::size_t rows_;                    ///< of a bin, a multiple of four
+  std::size_t rows_;                    ///< of a bin, whole groups of four
   std::vector<ColumnCounts> counts_;    ///< of the bins of neighbouring columns
   std::unique_ptr<DepthSlot[]> slots_;  ///< rows_ for each of those
   std::vector<InverseSlot> inverse_;    ///< of kColumnsTogether columns
