@@ -37,6 +37,20 @@ Outcome outcomeOf(const Frame& frame, const std::string& backend) {
   return outcome;
 }
 
+TEST(FrameCheck, TheLastPixelLookedAtMayTell) {
+  Frame frame;
+  frame.gray = cv::Mat(480, 640, CV_8UC1, cv::Scalar(100));
+  frame.depth_m = cv::Mat(480, 640, CV_32FC1, cv::Scalar(0));
+  frame.gray.at<std::uint8_t>(472, 632) = 103;
+  for (int i = 0; i < 23; ++i) frame.depth_m.at<float>(472, 632 - 8 * i) = 2.0F;
+  EXPECT_FALSE(checkFrame(frame, {}).image_usable);
+  EXPECT_FALSE(checkFrame(frame, {}).depth_usable);  // 23 of 4800 are less than 0.5 %
+  frame.gray.at<std::uint8_t>(472, 632) = 104;
+  frame.depth_m.at<float>(464, 0) = 2.0F;
+  EXPECT_TRUE(checkFrame(frame, {}).image_usable);
+  EXPECT_TRUE(checkFrame(frame, {}).depth_usable);
+}
+
 class StrangeFrames : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(StrangeFrames, LackNothingWhenSound) {

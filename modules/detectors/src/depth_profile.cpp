@@ -3,9 +3,11 @@
 #include "colonnade/detectors/depth_profile.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <span>
 
 #include "colonnade/detectors/levelled_camera.hpp"
 #include "depth_column.hpp"
@@ -14,70 +16,74 @@
 namespace colonnade {
 namespace {
 
-/// All pixels, sorted into (column, band).
+constexpr std::size_t kBands = DepthProfile::kBands;
+
+/// All pixels, sorted into columns and bands.
 class Bins {
  public:
+  /// rows: the pixels a bin has room for, and some more: two of a row may fall into one.
   Bins(int columns, int rows)
-      : rows_(static_cast<std::size_t>(columnBlocks(rows) * kColumnBlock)),
-        counts_(static_cast<std::size_t>(columns) * DepthProfile::kBands, 0),
-        pixels_(std::make_unique_for_overwrite<Pixel[]>(counts_.size() * rows_)),
-        all_z_(DepthProfile::kBands * rows_),
-        all_offset_(all_z_.size()),
-        inverse_(all_z_.size()) {}
+      : rows_(static_cast<std::size_t>(rows + 7) / 8 * 8),
+        counts_(kBands * static_cast<std::size_t>(columns / kColumnsTogether + 1)),
+        slots_(std::make_unique_for_overwrite<DepthSlot[]>(counts_.size() * rows_)),
+        inverse_(kBands * rows_) {}
 
   void add(std::size_t bin, float z, float offset) {
-    if (counts_[bin] < rows_) pixels_[bin * rows_ + counts_[bin]++] = {z, offset};
+    const std::size_t group = bin / kColumnsTogether, column = bin % kColumnsTogether;
+    auto& count = counts_[group][column];
+    const auto place = static_cast<std::size_t>(count);
+    if (place >= rows_) return;
+    DepthSlot& slot = slots_[group * rows_ + place];
+    slot.z[column] = z;
+    slot.offset[column] = offset;
+    ++count;
   }
 
-  /// `slope` and `slope_step`: of the middle of the column and from column to column.
-  void summarise(DepthProfile::Column& column, int index, int min_pixels, double slope,
+  /// The columns from kColumnsTogether * index on. Their slopes must be those of their middles;
+  /// slope_step: from column to column.
+  void summarise(std::span<DepthProfile::Column> columns, std::size_t index, int min_pixels,
                  double slope_step) {
-    std::size_t all = 0;  // with what fills the blocks of each band
-    int pixels = 0;
-    float least = std::numeric_limits<float>::max(), most = 0.0F;
-    for (std::size_t band = 0; band < DepthProfile::kBands; ++band) {
-      const std::size_t bin = static_cast<std::size_t>(index) * DepthProfile::kBands + band;
-      const auto count = static_cast<int>(counts_[bin]);
-      if (count == 0 || count < min_pixels) continue;
-      float* const z = &all_z_[all];
-      float* const offset = &all_offset_[all];
-      double* const inverse = &inverse_[all];
-      const Pixel* const pixels_here = &pixels_[bin * rows_];
-      for (int i = 0; i < count; ++i) {
-        z[i] = pixels_here[i].z;
-        offset[i] = pixels_here[i].offset;
+    std::array<ColumnPart, kBands> parts;
+    std::array<ColumnMiddles, kBands> middles;
+    ColumnCounts all{};
+    std::array<float, kColumnsTogether> least, most;
+    least.fill(std::numeric_limits<float>::max());
+    most.fill(0.0F);
+    for (std::size_t band = 0; band < kBands; ++band) {
+      const std::size_t group = index * kBands + band;
+      DepthSlot* const slots = &slots_[group * rows_];
+      InverseSlot* const inverse = &inverse_[band * rows_];
+      ColumnCounts& pixels = counts_[group];
+      for (auto& count : pixels) count = count < min_pixels ? 0 : count;
+      const int count = slotsOf(pixels);
+      fillSlots(slots, count, pixels);
+      inverseDepths(slots, count, inverse);
+      parts[band] = {slots, inverse, count};
+      middles[band] = middlesOfColumns({&parts[band], 1}, pixels);
+      for (std::size_t i = 0; i < columns.size(); ++i) {
+        if (pixels[i] == 0) continue;
+        columns[i].band_z[band] = middles[band].z[i];
+        columns[i].band_slope[band] = columns[i].slope + slope_step * middles[band].offset[i];
+        // The median of all is between those of the parts.
+        least[i] = std::min(least[i], middles[band].median[i]);
+        most[i] = std::max(most[i], middles[band].median[i]);
+        all[i] += pixels[i];
       }
-      fillColumnBlock(z, offset, count);
-      const int blocks = columnBlocks(count);
-      inverseDepths(z, blocks, inverse);
-      const ColumnMiddle middle = middleOfColumn(z, inverse, offset, blocks, count);
-      column.band_z[band] = middle.z;
-      column.band_slope[band] = slope + slope_step * middle.offset;
-      least = std::min(least, middle.median);
-      most = std::max(most, middle.median);
-      all += static_cast<std::size_t>(blocks * kColumnBlock);
-      pixels += count;
     }
-    column.slope = slope;
-    if (pixels == 0) return;
-    // The median of all is between those of the parts.
-    const ColumnMiddle middle =
-        middleOfColumn(all_z_.data(), inverse_.data(), all_offset_.data(),
-                       static_cast<int>(all) / kColumnBlock, pixels, least, most);
-    column.z = middle.z;
-    column.slope = slope + slope_step * middle.offset;
-    column.pixels = middle.pixels;
+    const ColumnMiddles middle = middlesOfColumns(parts, all, least, most);
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      if (all[i] == 0) continue;
+      columns[i].z = middle.z[i];
+      columns[i].slope += slope_step * middle.offset[i];
+      columns[i].pixels = middle.pixels[i];
+    }
   }
 
  private:
-  struct Pixel {
-    float z, offset;
-  };
-  std::size_t rows_;  ///< of a bin, whole blocks
-  std::vector<std::size_t> counts_;
-  std::unique_ptr<Pixel[]> pixels_;
-  std::vector<float> all_z_, all_offset_;  ///< of a column
-  std::vector<double> inverse_;
+  std::size_t rows_;                    ///< of a bin, whole groups of four
+  std::vector<ColumnCounts> counts_;    ///< of the bins of neighbouring columns
+  std::unique_ptr<DepthSlot[]> slots_;  ///< rows_ for each of those
+  std::vector<InverseSlot> inverse_;    ///< of kColumnsTogether columns
 };
 
 }  // namespace
@@ -105,9 +111,9 @@ DepthProfile makeDepthProfile(const Frame& frame, const DepthProfileOptions& opt
   const SliceGrid grid{
       camera.height(), options.min_height_m, options.max_height_m, DepthProfile::kBands, columns,
       middle,          profile.focal_px};
-  std::vector<std::int32_t> bin(profile.columns.size());
+  std::vector<int> blocks(profile.columns.size() / kPlacedTogether + 1);
+  std::vector<std::int32_t> bin(blocks.size() * kPlacedTogether);
   std::vector<float> z(bin.size()), offset(bin.size());
-  std::vector<int> blocks(bin.size() / kPlacedTogether + 1);
   std::vector<RayRow> rays;  // of the rows read
   for (int v = options.row_step / 2; v < frame.depth_m.rows; v += options.row_step)
     rays.emplace_back(camera, v, forward);
@@ -121,16 +127,18 @@ DepthProfile makeDepthProfile(const Frame& frame, const DepthProfileOptions& opt
                                  {bin.data(), z.data(), offset.data(), blocks.data()});
       for (int block = 0; block < count; ++block) {
         const auto first = static_cast<std::size_t>(blocks[static_cast<std::size_t>(block)]);
-        for (std::size_t u = first; u < std::min(first + kPlacedTogether, bin.size()); ++u)
+        for (std::size_t u = first; u < first + kPlacedTogether; ++u)
           if (bin[u] >= 0) bins.add(static_cast<std::size_t>(bin[u]), z[u], offset[u]);
       }
       v += options.row_step;
     }
   }
-  for (int i = 0; i < columns; ++i) {
-    bins.summarise(profile.columns[static_cast<std::size_t>(i)], i, options.min_pixels,
-                   (i - middle) / profile.focal_px, 1.0 / profile.focal_px);
-  }
+  for (int i = 0; i < columns; ++i)
+    profile.columns[static_cast<std::size_t>(i)].slope = (i - middle) / profile.focal_px;
+  const std::span<DepthProfile::Column> all = profile.columns;
+  for (std::size_t first = 0; first < all.size(); first += kColumnsTogether)
+    bins.summarise(all.subspan(first, std::min<std::size_t>(kColumnsTogether, all.size() - first)),
+                   first / kColumnsTogether, options.min_pixels, 1.0 / profile.focal_px);
   return profile;
 }
 

@@ -3,8 +3,11 @@
 #include "depth_slice_row.hpp"
 
 #include <algorithm>
+#include <bit>
+#include <cstring>
 
 #include "colonnade/base/vector_kernel.hpp"
+#include "depth_column.hpp"
 
 namespace colonnade {
 
@@ -35,50 +38,74 @@ DepthRange depthsWithin(const RayRow& rays, const SliceGrid& grid) {
           static_cast<float>(most * (1.0 + kRounding))};
 }
 
+constexpr int kLanes = 4;
+using Floats = float __attribute__((vector_size(4 * kLanes)));
+using Ints = std::int32_t __attribute__((vector_size(4 * kLanes)));
+using Doubles = double __attribute__((vector_size(8 * kLanes)));
+using Longs = std::int64_t __attribute__((vector_size(8 * kLanes)));
+
+template <class Lanes, class Number>
+inline __attribute__((always_inline)) void store(const Lanes& lanes, Number* to) {
+  std::memcpy(to, &lanes, sizeof lanes);
+}
+
+/// The pixels u to u + 3. All conditions stay masks as wide as the numbers they come from.
+inline __attribute__((always_inline)) void placeFour(const float* depths, int u, const RayRow& rays,
+                                                     const SliceGrid& grid, double per_band,
+                                                     const SlicePlaces& places) {
+  constexpr double kLeastAhead = 0.1;
+  Floats floats;
+  std::memcpy(&floats, depths, sizeof floats);
+  const Doubles depth = __builtin_convertvector(floats, Doubles);
+  const Doubles at = static_cast<double>(u) + Doubles{0.0, 1.0, 2.0, 3.0};
+  const double low = grid.min_height_m;
+  const Doubles height = grid.camera_height_m + depth * (rays.up.first + at * rays.up.step);
+  const Doubles ahead = rays.ahead.first + at * rays.ahead.step;
+  const Doubles column =
+      grid.middle_px + grid.focal_px * (rays.right.first + at * rays.right.step) / ahead;
+  // NaN is in none.
+  const Longs inside = (depth > kNearest_m) & (depth < kFarthest_m) & (height >= low) &
+                       (height < grid.max_height_m) & (ahead >= kLeastAhead) & (column > -0.5) &
+                       (column < grid.columns - 0.5);
+  const Doubles known_column = inside ? column : Doubles{};
+  const Doubles known_height = inside ? height : low - Doubles{};
+  const Ints index = __builtin_convertvector(known_column + 0.5, Ints);
+  Ints band = __builtin_convertvector((known_height - low) * per_band, Ints);
+  const Ints last_band = grid.bands - 1 - Ints{};
+  band = band < last_band ? band : last_band;
+  const Ints beside = index & (kColumnsTogether - 1);
+  const Ints bin = (index - beside) * grid.bands + band * kColumnsTogether + beside;
+  store(bin | ~__builtin_convertvector(inside, Ints), places.bin + u);
+  store(__builtin_convertvector(depth * ahead, Floats), places.z + u);
+  store(__builtin_convertvector(known_column - __builtin_convertvector(index, Doubles), Floats),
+        places.offset + u);
+}
+
 }  // namespace
 
 COLONNADE_VECTOR_KERNEL
 int placeRow(const float* depth_m, int first, int last, const RayRow& rays, const SliceGrid& grid,
              const SlicePlaces& places) {
-  constexpr double kLeastAhead = 0.1;
-  const float* __restrict depths = depth_m;
-  std::int32_t* __restrict bins = places.bin;
-  float* __restrict zs = places.z;
-  float* __restrict offsets = places.offset;
-  const RayRow r = rays;
-  const double camera_height_m = grid.camera_height_m;
-  const double low = grid.min_height_m, high = grid.max_height_m;
-  const double per_band = grid.bands / (high - low);
-  const double middle = grid.middle_px, focal = grid.focal_px;
-  const double last_column = grid.columns - 1.0;
-  const std::int32_t bands = grid.bands;
-  const DepthRange range = depthsWithin(rays, grid);
+  static_assert(kPlacedTogether % kLanes == 0 && std::has_single_bit(unsigned{kColumnsTogether}));
+  const RayRow row = rays;
+  const SliceGrid slice = grid;
+  const double per_band = slice.bands / (slice.max_height_m - slice.min_height_m);
+  const DepthRange range = depthsWithin(row, slice);
   int blocks = 0;
   for (int begin = first; begin < last; begin += kPlacedTogether) {
-    const int end = std::min(begin + kPlacedTogether, last);
+    const float* depths = depth_m + begin;
+    float filled[kPlacedTogether] = {};
+    if (last - begin < kPlacedTogether) {
+      std::copy(depths, depth_m + last, filled);
+      depths = filled;
+    }
     int any = 0;
-    for (int u = begin; u < end; ++u)
-      any |= (depths[u] > range.least) & (depths[u] < range.most) ? 1 : 0;
+    for (int i = 0; i < kPlacedTogether; ++i)
+      any |= (depths[i] > range.least) & (depths[i] < range.most) ? 1 : 0;
     if (any == 0) continue;
     places.block[blocks++] = begin;
-    for (int u = begin; u < end; ++u) {
-      const double depth = static_cast<double>(depths[u]);
-      const double height = camera_height_m + depth * (r.up.first + u * r.up.step);
-      const double ahead = r.ahead.first + u * r.ahead.step;
-      const double column = middle + focal * (r.right.first + u * r.right.step) / ahead;
-      // NaN is in none.
-      const bool inside = (depth > kNearest_m) & (depth < kFarthest_m) & (height >= low) &
-                          (height < high) & (ahead >= kLeastAhead) & (column > -0.5) &
-                          (column < last_column + 0.5);
-      const double known_column = inside ? column : 0.0;
-      const double known_height = inside ? height : low;
-      const auto index = static_cast<std::int32_t>(known_column + 0.5);
-      auto band = static_cast<std::int32_t>((known_height - low) * per_band);
-      band = band < bands ? band : bands - 1;
-      bins[u] = inside ? index * bands + band : -1;
-      zs[u] = static_cast<float>(depth * ahead);
-      offsets[u] = static_cast<float>(known_column - index);
-    }
+    for (int i = 0; i < kPlacedTogether; i += kLanes)
+      placeFour(depths + i, begin + i, row, slice, per_band, places);
   }
   return blocks;
 }

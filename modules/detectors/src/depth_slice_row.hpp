@@ -22,9 +22,11 @@ struct SliceGrid {
 /// Pixels of a row are looked at in blocks; where none can be in the slice, nothing is done.
 constexpr int kPlacedTogether = 16;
 
-/// Where the pixels of a row belong.
+/// Where the pixels of a row belong. The bins of kColumnsTogether neighbouring columns follow one
+/// another for each band, then those of the next band, then the next columns. There is room for
+/// whole blocks.
 struct SlicePlaces {
-  std::int32_t* bin;  ///< column * bands + band; negative: in none
+  std::int32_t* bin;  ///< negative: in none
   float* z;           ///< forward, m
   float* offset;      ///< of the ray from the middle of its column, columns
   int* block;         ///< first pixels of the blocks that were placed

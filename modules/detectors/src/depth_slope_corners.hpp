@@ -36,8 +36,4 @@ std::optional<SliceCorner> intersection(const InverseLine& left, const InverseLi
 std::vector<SliceCorner> findCorners(const DepthProfile& profile, const InverseColumns& columns,
                                      const DepthSlopeOptions& options);
 
-/// Whether a band of heights shows the corner: nothing where it does not measure both sides.
-std::optional<bool> isSeenIn(const InverseColumns& band, const InverseColumns& columns,
-                             const SliceCorner& corner, double focal_px);
-
 }  // namespace colonnade

@@ -7,6 +7,7 @@
 
 #include "colonnade/detectors/depth_noise.hpp"
 #include "colonnade/detectors/levelled_camera.hpp"
+#include "corner_in_band.hpp"
 #include "depth_slope_corners.hpp"
 
 namespace colonnade {

@@ -13,14 +13,23 @@ Eigen::Vector2d pointOf(const InverseColumn& column) {
   return Eigen::Vector2d(column.s, 1.0) / column.q;
 }
 
-/// Of a point across the circle, metres: noise is along the ray, which a slanting surface shortens.
-double sigmaAcross(const InverseColumn& column, const Eigen::Vector2d& normal) {
-  constexpr double kMostSlanted = 0.25;
-  const Eigen::Vector2d ray(column.s, 1.0);
-  const double cosine = std::abs(normal.dot(ray.normalized()));
-  return std::sqrt(column.variance) / (column.q * column.q) * ray.norm() *
-         std::max(cosine, kMostSlanted);
-}
+/// What of a column stays the same from round to round.
+struct ArcPoint {
+  Eigen::Vector2d p;    ///< from the origin of the fit, m
+  Eigen::Vector2d ray;  ///< unit
+  double sigma_m;       ///< along the ray
+  ArcPoint(const InverseColumn& column, const Eigen::Vector2d& origin)
+      : p(pointOf(column) - origin) {
+    const Eigen::Vector2d along(column.s, 1.0);
+    ray = along.normalized();
+    sigma_m = std::sqrt(column.variance) / (column.q * column.q) * along.norm();
+  }
+  /// Across the circle: noise is along the ray, which a slanting surface shortens.
+  double sigmaAcross(const Eigen::Vector2d& normal) const {
+    constexpr double kMostSlanted = 0.25;
+    return sigma_m * std::max(std::abs(normal.dot(ray)), kMostSlanted);
+  }
+};
 
 }  // namespace
 
@@ -30,8 +39,10 @@ SliceCircle fitCircle(const InverseColumns& columns, std::size_t first, std::siz
   const Eigen::Vector2d origin = pointOf(columns[(first + last) / 2]);
   Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
   Eigen::Vector3d v = Eigen::Vector3d::Zero();
+  std::vector<ArcPoint> points;
+  points.reserve(last - first);
   for (std::size_t i = first; i < last; ++i) {
-    const Eigen::Vector2d p = pointOf(columns[i]) - origin;
+    const Eigen::Vector2d& p = points.emplace_back(columns[i], origin).p;
     const Eigen::Vector3d row(p.x(), p.y(), 1.0);
     A += row * row.transpose();
     v += row * p.squaredNorm();
@@ -46,12 +57,12 @@ SliceCircle fitCircle(const InverseColumns& columns, std::size_t first, std::siz
     A.setZero();
     v.setZero();
     circle.cost = 0.0;
-    for (std::size_t i = first; i < last; ++i) {
-      const Eigen::Vector2d away = pointOf(columns[i]) - origin - centre;
+    for (const ArcPoint& point : points) {
+      const Eigen::Vector2d away = point.p - centre;
       const double distance_m = std::max(away.norm(), 1e-6);
       const Eigen::Vector2d normal = away / distance_m;
       const double error = distance_m - radius_m;
-      const double sigma = sigmaAcross(columns[i], normal);
+      const double sigma = point.sigmaAcross(normal);
       const Eigen::Vector3d row(normal.x(), normal.y(), 1.0);
       A += row * row.transpose() / (sigma * sigma);
       v += row * error / (sigma * sigma);

@@ -14,8 +14,9 @@ constexpr int kLeastContrast = 4;
 constexpr double kMostEdges = 0.16;  ///< of the pixels; pictures of rooms have 3 to 8 %
 constexpr double kLeastDepth = 0.005;
 
-/// Gray levels between the darkest and the brightest pixel looked at.
-int contrastOf(const cv::Mat& gray) {
+/// Are the darkest and the brightest pixel looked at so many gray levels apart? Looks no farther
+/// than it must.
+bool hasContrast(const cv::Mat& gray) {
   int low = 255;
   int high = 0;
   for (int v = 0; v < gray.rows; v += kStep_px) {
@@ -24,8 +25,9 @@ int contrastOf(const cv::Mat& gray) {
       low = std::min<int>(low, row[u]);
       high = std::max<int>(high, row[u]);
     }
+    if (high - low >= kLeastContrast) return true;
   }
-  return high - low;
+  return false;
 }
 
 double shareOfEdges(const cv::Mat& edges) {
@@ -38,24 +40,25 @@ double shareOfEdges(const cv::Mat& edges) {
   return static_cast<double>(count) / static_cast<double>(all);
 }
 
-double shareOfDepth(const cv::Mat& depth_m) {
+/// Looks no farther than it must.
+bool holdsDepth(const cv::Mat& depth_m) {
+  const auto looked_at = [](int pixels) { return (pixels + kStep_px - 1) / kStep_px; };
+  const double all = static_cast<double>(looked_at(depth_m.rows)) * looked_at(depth_m.cols);
   long valid = 0;
-  long all = 0;
   for (int v = 0; v < depth_m.rows; v += kStep_px) {
     const auto* row = depth_m.ptr<float>(v);
-    for (int u = 0; u < depth_m.cols; u += kStep_px) {
+    for (int u = 0; u < depth_m.cols; u += kStep_px)
       valid += row[u] > 0.2F && row[u] < 15.0F;  // not NaN
-      ++all;
-    }
+    if (static_cast<double>(valid) / all >= kLeastDepth) return true;
   }
-  return static_cast<double>(valid) / static_cast<double>(all);
+  return false;
 }
 
 std::string lackOfImage(const Frame& frame, const EdgeLines& edges) {
   const cv::Mat& gray = frame.gray;
   if (gray.type() != CV_8UC1) return "the image is not 8-bit gray";
   if (std::min(gray.cols, gray.rows) < kLeastSide_px) return "the image is too small";
-  if (contrastOf(gray) < kLeastContrast) return "the image has no contrast";
+  if (!hasContrast(gray)) return "the image has no contrast";
   if (edges.edges.size() == gray.size() && shareOfEdges(edges.edges) > kMostEdges)
     return "the image is noise";
   return {};
@@ -67,7 +70,7 @@ std::string lackOfDepth(const Frame& frame) {
   if (!frame.gray.empty() && depth_m.size() != frame.gray.size())
     return "the depth has another size than the image";
   if (std::min(depth_m.cols, depth_m.rows) < kLeastSide_px) return "the depth is too small";
-  if (shareOfDepth(depth_m) < kLeastDepth) return "the depth holds no values";
+  if (!holdsDepth(depth_m)) return "the depth holds no values";
   return {};
 }
 

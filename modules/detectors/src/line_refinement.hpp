@@ -9,10 +9,11 @@
 
 namespace colonnade {
 
-/// Refines guesses on one image. edges: as EdgeLines::edges.
+/// Refines guesses on one image. edges: as EdgeLines::edges; bits: those of its steep or flat
+/// edges, with rows or columns as steps.
 class LineRefiner {
  public:
-  LineRefiner(const cv::Mat& gray, const cv::Mat& edges, bool steep,
+  LineRefiner(const cv::Mat& gray, const cv::Mat& edges, EdgeBits bits, bool steep,
               const LineRefinementOptions& options);
 
   /// Appends the lines that edge pixels beside the guess support.

@@ -103,16 +103,44 @@ int countBlock(const Straight& line, double reach, const double* s, const double
   return static_cast<int>(within);
 }
 
+/// None is farther from the line.
+COLONNADE_VECTOR_KERNEL
+bool areWithin(const Straight& line, double reach, const double* s, const double* across,
+               std::size_t count) {
+  const Straight l = line;
+  std::int64_t within = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double off = across[i] - (l.offset + l.slope * (s[i] - l.middle));
+    within += (off <= reach) & (off >= -reach) ? 1 : 0;
+  }
+  return within == static_cast<std::int64_t>(count);
+}
+
 }  // namespace
 
 void Samples::assignWithin(SampleSpan some, const Straight& line, double reach) {
+  constexpr std::size_t kBlock = 32;
   std::size_t kept = 0;
-  for (std::size_t i = 0; i < some.count; ++i) {
-    const double s = some.s[i], across = some.across[i];
-    s_[kept] = s;
-    across_[kept] = across;
-    t_[kept] = some.t[i];
-    kept += std::abs(across - line.across(s)) <= reach ? 1U : 0U;
+  for (SampleSpan rest = some; !rest.empty();) {
+    const SampleSpan block = rest.first(std::min(kBlock, rest.size()));
+    rest = rest.subspan(block.size());
+    // Most blocks are kept whole: to see that takes fewer steps than to choose one by one.
+    if (areWithin(line, reach, block.s, block.across, block.size())) {
+      if (block.s != &s_[kept]) {
+        std::copy_n(block.s, block.size(), &s_[kept]);
+        std::copy_n(block.across, block.size(), &across_[kept]);
+        std::copy_n(block.t, block.size(), &t_[kept]);
+      }
+      kept += block.size();
+      continue;
+    }
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      const double s = block.s[i], across = block.across[i];
+      s_[kept] = s;
+      across_[kept] = across;
+      t_[kept] = block.t[i];
+      kept += std::abs(across - line.across(s)) <= reach ? 1U : 0U;
+    }
   }
   count_ = kept;
 }

@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <optional>
-#include <utility>
 #include <vector>
 
 namespace colonnade {
@@ -45,8 +44,8 @@ class Samples {
     s_[count_] = s;
     t_[count_++] = t;
   }
-  std::pair<int, int> pixel(std::size_t i) const { return {static_cast<int>(s_[i]), t_[i]}; }
-  void setAcross(std::size_t i, double across) { across_[i] = across; }
+  /// Of each, to be set.
+  double* across() { return across_.data(); }
   operator SampleSpan() const { return {s_.data(), across_.data(), t_.data(), count_}; }
 
   /// Takes over those within reach of a line; `some` may be these.

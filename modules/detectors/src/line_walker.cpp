@@ -6,6 +6,8 @@
 #include <bit>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
+#include <utility>
 
 #include "colonnade/base/vector_kernel.hpp"
 
@@ -34,26 +36,72 @@ void findPixelsBeside(const Straight& line, double reach, int length, int width,
   }
 }
 
-/// Vertex of the parabola through three gradient magnitudes across, at most half a pixel away.
-inline __attribute__((always_inline)) double shiftAt(const std::uint8_t* here, std::ptrdiff_t along,
-                                                     std::ptrdiff_t across) {
+/// Gradient magnitudes before, at and after a pixel, across a line; averaged along it.
+struct Gradients {
+  std::int16_t before, at, after, unused;
+};
+
+inline __attribute__((always_inline)) Gradients gradientsAt(const std::uint8_t* here,
+                                                            std::ptrdiff_t along,
+                                                            std::ptrdiff_t across) {
   const auto smooth = [&](std::ptrdiff_t aside) {
     const std::uint8_t* const p = here + aside * across;
     return p[-along] + 2 * p[0] + p[along];
   };
   const int sums[5] = {smooth(-2), smooth(-1), smooth(0), smooth(1), smooth(2)};
-  const int before = std::abs(sums[2] - sums[0]);
-  const int at = std::abs(sums[3] - sums[1]);
-  const int after = std::abs(sums[4] - sums[2]);
-  const int curvature = before - 2 * at + after;
-  if (curvature >= 0) return 0.0;
-  const double shift = 0.5 * (before - after) / curvature;
-  return shift < -0.5 ? -0.5 : (shift > 0.5 ? 0.5 : shift);
+  const auto magnitude = [&](int i) {
+    return static_cast<std::int16_t>(std::abs(sums[i + 2] - sums[i]));
+  };
+  return {magnitude(0), magnitude(1), magnitude(2), 0};
+}
+
+/// The same where pixels across lie side by side; reads three columns more.
+inline __attribute__((always_inline)) Gradients gradientsInRow(const std::uint8_t* here,
+                                                               std::ptrdiff_t along) {
+  using Bytes = std::uint8_t __attribute__((vector_size(8)));
+  using Sums = std::int16_t __attribute__((vector_size(16)));
+  Bytes above, middle, below;
+  std::memcpy(&above, here - along - 2, sizeof above);
+  std::memcpy(&middle, here - 2, sizeof middle);
+  std::memcpy(&below, here + along - 2, sizeof below);
+  const Sums sums = __builtin_convertvector(above, Sums) +
+                    2 * __builtin_convertvector(middle, Sums) +
+                    __builtin_convertvector(below, Sums);
+  const Sums steps = __builtin_shufflevector(sums, sums, 2, 3, 4, 5, 6, 7, 0, 1) - sums;
+  const Sums magnitudes = steps < 0 ? -steps : steps;
+  Gradients gradients;
+  std::memcpy(&gradients, &magnitudes, sizeof gradients);
+  return gradients;
+}
+
+COLONNADE_VECTOR_KERNEL
+void findGradientsInRows(const std::uint8_t* gray, std::ptrdiff_t along, int width,
+                         SampleSpan samples, Gradients* gradients) {
+  constexpr int kRead = 5;  // columns behind the pixel
+  for (std::size_t i = 0; i < samples.count; ++i) {
+    const int t = samples.t[i];
+    const std::uint8_t* const here = gray + static_cast<std::ptrdiff_t>(samples.s[i]) * along + t;
+    gradients[i] = t + kRead < width ? gradientsInRow(here, along) : gradientsAt(here, along, 1);
+  }
+}
+
+/// Vertices of the parabolas through the gradients, at most half a pixel away from the pixels.
+COLONNADE_VECTOR_KERNEL
+void findVertices(const Gradients* gradients, const int* t, std::size_t count, double* across) {
+  const Gradients* __restrict g = gradients;
+  const int* __restrict pixel = t;
+  double* __restrict out = across;
+  for (std::size_t i = 0; i < count; ++i) {
+    const int curvature = g[i].before - 2 * g[i].at + g[i].after;
+    const double vertex = 0.5 * (g[i].before - g[i].after) / (curvature < 0 ? curvature : -1);
+    const double limited = vertex < -0.5 ? -0.5 : (vertex > 0.5 ? 0.5 : vertex);
+    out[i] = pixel[i] + (curvature < 0 ? limited : 0.0);
+  }
 }
 
 }  // namespace
 
-Walker::Walker(const cv::Mat& gray, const cv::Mat& edges, bool steep)
+Walker::Walker(const cv::Mat& gray, const cv::Mat& edges, EdgeBits bits, bool steep)
     : gray_(gray.data),
       gray_s_(steep ? static_cast<std::ptrdiff_t>(gray.step[0]) : 1),
       gray_t_(steep ? 1 : static_cast<std::ptrdiff_t>(gray.step[0])),
@@ -62,7 +110,7 @@ Walker::Walker(const cv::Mat& gray, const cv::Mat& edges, bool steep)
       edges_t_(steep ? 1 : static_cast<std::ptrdiff_t>(edges.step[0])),
       length_(steep ? edges.rows : edges.cols),
       width_(steep ? edges.cols : edges.rows),
-      all_(edgeBits(edges, steep)),
+      all_(std::move(bits)),
       free_(all_),
       low_(static_cast<std::size_t>(length_)),
       span_(low_.size()) {}
@@ -109,12 +157,20 @@ int Walker::nearest(const Straight& line, int s, int low, std::uint64_t row) {
 }
 
 void Walker::measure(Samples& samples) const {
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    const auto [s, t] = samples.pixel(i);
-    const std::uint8_t* const here = gray_ + s * gray_s_ + t * gray_t_;
-    // The constant step lets the compiler see that the neighbours of steep lines lie side by side.
-    samples.setAcross(
-        i, t + (gray_t_ == 1 ? shiftAt(here, gray_s_, 1) : shiftAt(here, gray_s_, gray_t_)));
+  constexpr std::size_t kBlock = 64;
+  Gradients gradients[kBlock];
+  double* across = samples.across();
+  for (SampleSpan rest = samples; !rest.empty();) {
+    const SampleSpan some = rest.first(std::min(kBlock, rest.size()));
+    if (gray_t_ == 1)
+      findGradientsInRows(gray_, gray_s_, width_, some, gradients);
+    else
+      for (std::size_t i = 0; i < some.size(); ++i)
+        gradients[i] = gradientsAt(
+            gray_ + static_cast<std::ptrdiff_t>(some.s[i]) + some.t[i] * gray_t_, 1, gray_t_);
+    findVertices(gradients, some.t, some.size(), across);
+    across += some.size();
+    rest = rest.subspan(some.size());
   }
 }
 

@@ -16,7 +16,8 @@ namespace colonnade {
 /// gradients that point along +1 and -1 across (t).
 class Walker {
  public:
-  Walker(const cv::Mat& gray, const cv::Mat& edges, bool steep);
+  /// bits: of the edges, rows as steps for steep lines, columns for flat ones.
+  Walker(const cv::Mat& gray, const cv::Mat& edges, EdgeBits bits, bool steep);
 
   int steps() const { return length_; }
 

@@ -123,6 +123,7 @@ bool markMoving(const DepthGlimpse& now, const DepthGlimpse& former,
 
 void completeMoving(const DepthGlimpse& now, const Frame& frame, const SegmentationOptions& options,
                     std::vector<std::uint8_t>& marks) {
+  if (std::find(marks.begin(), marks.end(), 1) == marks.end()) return;
   const DepthCells& cells = now.cells;
   struct Front {
     std::size_t cell;

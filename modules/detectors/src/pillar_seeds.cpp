@@ -3,10 +3,9 @@
 #include "pillar_seeds.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
+#include <utility>
 #include <vector>
 
 #include "colonnade/base/vector_kernel.hpp"
@@ -72,22 +71,6 @@ void findRidges(const std::uint8_t* row, int columns, int least, std::int16_t* a
     const std::uint8_t way = a[u] > 0 ? kRising : kFalling;
     code[u] = ridge ? way : std::uint8_t{0};
   }
-}
-
-/// Calls take(u) for each pixel of a row that has one of the two codes.
-template <class Take>
-void eachEdge(const std::uint8_t* codes, int columns, Take&& take) {
-  static_assert(kRising % 2 == 1 && kFalling % 2 == 1);
-  constexpr std::uint64_t kLowest = 0x0101010101010101;  // bits of all bytes
-  constexpr int kWord = 8;
-  int u = 0;
-  for (; u + kWord <= columns; u += kWord) {
-    std::uint64_t word;
-    std::memcpy(&word, codes + u, sizeof word);
-    for (word &= kLowest; word != 0; word &= word - 1) take(u + std::countr_zero(word) / 8);
-  }
-  for (; u < columns; ++u)
-    if (codes[u] != 0) take(u);
 }
 
 /// Where upright lines cross the middle row, in bins of a pixel.
@@ -159,14 +142,17 @@ RefinedLines faintUprights(const cv::Mat& gray, const LevelledCamera& camera,
   Votes votes(gray, camera);
   const int least = std::max(1, static_cast<int>(std::lround(2.0 * options.faint_contrast)));
   std::vector<std::int16_t> across(static_cast<std::size_t>(gray.cols));
+  EdgeBits bits{{gray.rows, gray.cols}, {gray.rows, gray.cols}};
   for (int row = kHalf; row < gray.rows - kHalf; ++row) {
     auto* const code = edges.ptr<std::uint8_t>(row);
     findRidges(mean.ptr<std::uint8_t>(row), gray.cols, least, across.data(), code);
     votes.startRow(row);
-    eachEdge(code, gray.cols, [&](int u) { votes.add(u, code[u] == kRising); });
+    setSteepBits(code, gray.cols, row, bits);
+    bits.rising.each(row, [&](int u) { votes.add(u, true); });
+    bits.falling.each(row, [&](int u) { votes.add(u, false); });
   }
   const double shortest = std::max(lines.min_length_px, options.min_length_px);
-  LineRefiner refiner(mean, edges, true, lines);
+  LineRefiner refiner(mean, edges, std::move(bits), true, lines);
   RefinedLines found;
   for (const auto& peak : votes.peaks(static_cast<int>(0.7 * shortest)))
     refiner.refine({0.5 * gray.rows, peak.u_middle, votes.slopeAt(peak.u_middle)}, found);

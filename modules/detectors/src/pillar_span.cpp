@@ -224,7 +224,7 @@ int contrastOf(const cv::Mat& gray, const RefinedLine& line) {
   contrasts.reserve(rowsBetween(line.begin, line.end));
   for (double v = line.begin; v <= line.end; v += 1.0)
     if (const auto contrast = contrastAt(gray, line, v)) contrasts.push_back(*contrast);
-  return medianOf(contrasts);
+  return medianByCounting<-255, 255>(contrasts);
 }
 
 SeenSpan seenSpan(const UprightEdge& edge, const RefinedLines& lines) {

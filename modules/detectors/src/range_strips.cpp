@@ -17,18 +17,19 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::infinity();
 
-/// Where depth fails, infinite.
+/// Where depth fails, infinite. aside: columns from `centre`.
 COLONNADE_VECTOR_KERNEL
-void invertRanges(const float* depth_m, const double* u_px, const RayRow& rays, std::size_t count,
-                  double* inverse) {
+void invertRanges(const float* depth_m, double centre, const double* aside, const RayRow& rays,
+                  std::size_t count, double* inverse) {
   const RayRow r = rays;
   const float* __restrict depths = depth_m;
-  const double* __restrict columns = u_px;
+  const double* __restrict columns = aside;
   double* __restrict out = inverse;
   for (std::size_t i = 0; i < count; ++i) {
     const auto depth = static_cast<double>(depths[i]);
-    const double x = depth * (r.ahead.first + columns[i] * r.ahead.step);
-    const double y = depth * (r.right.first + columns[i] * r.right.step);
+    const double u = centre + columns[i];
+    const double x = depth * (r.ahead.first + u * r.ahead.step);
+    const double y = depth * (r.right.first + u * r.right.step);
     const double q = 1.0 / std::sqrt(x * x + y * y);
     out[i] = (depth > DepthView::kNearest_m) & (depth < DepthView::kFarthest_m) ? q : kNone;
   }
@@ -57,8 +58,19 @@ void sortColumns(double* numbers) {
 }  // namespace
 
 RangeStrips::RangeStrips(const DepthView& depth, const RefinedLine& line) {
+  static constexpr std::array<int, kLanes> kAside = [] {
+    std::array<int, kLanes> aside{};
+    for (int side = 0; side < 2; ++side)
+      for (std::size_t place = 0; place < kPlaces; ++place)
+        aside[laneOf(side, place)] = side == 0 ? -kDistances_px[place] : kDistances_px[place];
+    return aside;
+  }();
+  static constexpr Row kAsideInPixels = [] {
+    Row aside{};
+    for (std::size_t lane = 0; lane < kLanes; ++lane) aside[lane] = kAside[lane];
+    return aside;
+  }();
   std::array<float, kLanes> depths{};
-  Row columns{};
   for (int row = 0; row < kRows; ++row) {
     const double v = line.begin + (line.end - line.begin) * (row + 0.5) / kRows;
     const auto centre = nearestPixel(Eigen::Vector2d(line.across(v), v));
@@ -68,25 +80,27 @@ RangeStrips::RangeStrips(const DepthView& depth, const RefinedLine& line) {
         centre->u >= kDistances_px.back() && centre->u + kDistances_px.back() < depth.columns();
     for (int side = 0; side < 2; ++side)
       for (std::size_t place = 0; place < kPlaces; ++place) {
-        const int u = centre->u + (side == 0 ? -kDistances_px[place] : kDistances_px[place]);
         const std::size_t lane = laneOf(side, place);
-        columns[lane] = u;
+        const int u = centre->u + kAside[lane];
         depths[lane] = inside || (u >= 0 && u < depth.columns()) ? depth_row[u] : 0.0F;
       }
     const RayRow rays(depth.camera(), centre->v);
     Row& inverse = inverse_[static_cast<std::size_t>(usableRows())];
-    invertRanges(depths.data(), columns.data(), rays, kLanes, inverse.data());
+    invertRanges(depths.data(), centre->u, kAsideInPixels.data(), rays, kLanes, inverse.data());
     std::size_t nearest = kLanes;
+    double most = 0.0;
     for (int side = 0; side < 2; ++side)
       for (std::size_t place = 0; kDistances_px[place] <= kNearStart_px; ++place) {
         const std::size_t lane = laneOf(side, place);
-        if (inverse[lane] < kNone && (nearest == kLanes || inverse[lane] > inverse[nearest]))
-          nearest = lane;
+        const bool nearer = (inverse[lane] > most) & (inverse[lane] < kNone);
+        most = nearer ? inverse[lane] : most;
+        nearest = nearer ? lane : nearest;
       }
     if (nearest == kLanes) continue;
     ++seen_rows_;
     const auto depth_m = static_cast<double>(depths[nearest]);
-    const double height_m = depth.camera().height() + depth_m * rays.up.at(columns[nearest]);
+    const double height_m =
+        depth.camera().height() + depth_m * rays.up.at(centre->u + kAsideInPixels[nearest]);
     if (height_m < 0.05 + kinectDepthSigma(depth_m)) ++floor_rows_;
   }
 }

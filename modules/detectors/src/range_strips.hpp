@@ -42,7 +42,9 @@ class RangeStrips {
   static constexpr std::size_t kGroup = 4;  ///< places sorted together
   static constexpr std::size_t kSide = (kPlaces + kGroup - 1) / kGroup * kGroup;
   static constexpr std::size_t kLanes = 2 * kSide;
-  static std::size_t laneOf(int side, std::size_t place) { return (side == 0 ? 0 : kSide) + place; }
+  static constexpr std::size_t laneOf(int side, std::size_t place) {
+    return (side == 0 ? 0 : kSide) + place;
+  }
   using Row = std::array<double, kLanes>;
 
   int seen_rows_ = 0;

@@ -7,7 +7,9 @@
 #include <cmath>
 #include <optional>
 #include <tuple>
+#include <utility>
 
+#include "line_break.hpp"
 #include "line_refinement.hpp"
 
 namespace colonnade {
@@ -61,71 +63,6 @@ double alignedShare(SampleSpan samples, const RefinedLine& line, const Walker& w
     aligned += across[static_cast<std::size_t>(walker.sectorAt(samples.s[i], samples.t[i])) %
                       across.size()];
   return static_cast<double>(aligned) / static_cast<double>(samples.size());
-}
-
-/// Sums over samples 0 to i, for the residual of a straight line through any stretch in O(1).
-class StretchCosts {
- public:
-  explicit StretchCosts(SampleSpan samples) : sums_(samples.size() + 1) {
-    const double origin = samples.empty() ? 0.0 : samples.s[0];
-    const double level = samples.empty() ? 0.0 : samples.across[0];
-    for (std::size_t i = 0; i < samples.size(); ++i) {
-      const double s = samples.s[i] - origin, t = samples.across[i] - level;
-      const Sums& a = sums_[i];
-      sums_[i + 1] = {a.s + s, a.t + t, a.ss + s * s, a.st + s * t, a.tt + t * t};
-    }
-  }
-  /// Sum of squared residuals of samples [first, last).
-  double operator()(std::size_t first, std::size_t last) const {
-    const auto n = static_cast<double>(last - first);
-    const Sums &a = sums_[first], &b = sums_[last];
-    const double s = b.s - a.s, t = b.t - a.t;
-    const double ss = b.ss - a.ss - s * s / n;
-    const double st = b.st - a.st - s * t / n;
-    const double tt = b.tt - a.tt - t * t / n;
-    return ss > 0.0 ? std::max(0.0, tt - st * st / ss) : std::max(0.0, tt);
-  }
-
- private:
-  struct Sums {
-    double s = 0.0, t = 0.0, ss = 0.0, st = 0.0, tt = 0.0;
-  };
-  std::vector<Sums> sums_;
-};
-
-/// Where a second straight line begins, if two explain the samples so much better than one that
-/// noise cannot be the reason: the feet of a wall and of a door in it, some centimetres farther
-/// back, look like one slanting line (F test for a break at an unknown place, after G. C. Chow, "Tests
-/// of equality between sets of coefficients in two linear regressions", Econometrica 1960).
-std::optional<std::size_t> breakOf(SampleSpan samples, double correlated_samples) {
-  constexpr std::size_t kLeast = 10;  // samples of a part
-  constexpr double kLeastSigma_px = 0.1;
-  constexpr double kImprobable = 16.0;  // chi-squared, the place being free
-  const std::size_t n = samples.size();
-  if (n < 2 * kLeast) return std::nullopt;
-  const StretchCosts cost(samples);
-  std::size_t best = kLeast;
-  double least = cost(0, n);
-  const double whole = least;
-  for (std::size_t i = kLeast; i + kLeast <= n; ++i) {
-    const double parts = cost(0, i) + cost(i, n);
-    if (parts >= least) continue;
-    least = parts;
-    best = i;
-  }
-  const double variance =
-      std::max(kLeastSigma_px * kLeastSigma_px, least / (static_cast<double>(n) - 4.0));
-  if (whole - least < kImprobable * correlated_samples * variance) return std::nullopt;
-  // Lenses bend lines by less than this.
-  constexpr double kApart_px = 0.5;
-  const auto one = leastSquares(samples);
-  for (const SampleSpan part : {samples.first(best), samples.subspan(best)}) {
-    const auto fit = leastSquares(part);
-    if (!one || !fit) continue;
-    for (const double s : {part.s[0], part.s[part.size() - 1]})
-      if (std::abs(one->line.across(s) - fit->line.across(s)) > kApart_px) return best;
-  }
-  return std::nullopt;
 }
 
 /// Uprights are not broken: lenses bend long ones a little.
@@ -182,9 +119,9 @@ bool isFitted(const Straight& line, SampleSpan samples, bool steep, int sign,
 
 }  // namespace
 
-LineRefiner::LineRefiner(const cv::Mat& gray, const cv::Mat& edges, bool steep,
+LineRefiner::LineRefiner(const cv::Mat& gray, const cv::Mat& edges, EdgeBits bits, bool steep,
                          const LineRefinementOptions& options)
-    : walker_(gray, edges, steep),
+    : walker_(gray, edges, std::move(bits), steep),
       steep_(steep),
       options_(options),
       rising_(walker_.steps()),
@@ -295,8 +232,9 @@ RefinedLines withoutDuplicates(RefinedLines lines, double duplicate_px) {
 RefinedLines refineLines(const cv::Mat& gray, const EdgeLines& edges,
                          const LineRefinementOptions& options) {
   if (gray.empty() || gray.type() != CV_8UC1 || edges.edges.size() != gray.size()) return {};
-  LineRefiner steep(gray, edges.edges, true, options);
-  LineRefiner flat(gray, edges.edges, false, options);
+  auto [steep_bits, flat_bits] = bitsOfBoth(edges.edges);
+  LineRefiner steep(gray, edges.edges, std::move(steep_bits), true, options);
+  LineRefiner flat(gray, edges.edges, std::move(flat_bits), false, options);
   RefinedLines lines;
   for (const auto& seed : edges.lines) {
     const double theta = radians(seed.theta_index);

@@ -12,7 +12,7 @@ std::vector<std::uint8_t> shrunk(const std::vector<std::uint8_t>& marks, const D
   std::vector<std::uint8_t> result(marks.size(), 0);
   for (int row = 0; row < cells.rows; ++row) {
     for (int column = 0; column < cells.columns; ++column) {
-      bool all = true;
+      bool all = marks[cells.index(column, row)] != 0;  // most are not
       for (int r = row - 1; all && r <= row + 1; ++r)
         for (int c = column - 1; all && c <= column + 1; ++c)
           all = !cells.contains(c, r) || marks[cells.index(c, r)] != 0;

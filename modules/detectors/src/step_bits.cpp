@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <opencv2/core/hal/intrin.hpp>
+#include <utility>
 
 namespace colonnade {
 namespace {
@@ -28,24 +29,28 @@ bool isOneOf(std::uint8_t code, const std::uint8_t (&codes)[3]) {
   return code == codes[0] || code == codes[1] || code == codes[2];
 }
 
-/// Steps are rows.
-EdgeBits rowBits(const cv::Mat& edges, const Codes& codes) {
-  EdgeBits bits{{edges.rows, edges.cols}, {edges.rows, edges.cols}};
-  for (int v = 0; v < edges.rows; ++v) {
-    const auto* row = edges.ptr<std::uint8_t>(v);
-    int u = 0;
-    for (; u + kLanes <= edges.cols; u += kLanes) {
-      const Lanes code = cv::v_load(row + u);
-      if (!cv::v_check_any(code > cv::v_setzero_u8())) continue;  // most pixels are no edges
+/// Which pixels of a row have codes that stand for steps in these directions. The steps of the bits
+/// are rows.
+struct RowBits {
+  const Codes& codes;
+  EdgeBits& bits;
+};
+template <std::size_t kKinds>
+void setRowBits(const std::uint8_t* row, int columns, int v, const RowBits (&kinds)[kKinds]) {
+  int u = 0;
+  for (; u + kLanes <= columns; u += kLanes) {
+    const Lanes code = cv::v_load(row + u);
+    if (!cv::v_check_any(code > cv::v_setzero_u8())) continue;  // most pixels are no edges
+    for (const auto& [codes, bits] : kinds) {
       storeWhere(code, codes.rising, bits.rising.step(v) + u / 8);
       storeWhere(code, codes.falling, bits.falling.step(v) + u / 8);
     }
-    for (; u < edges.cols; ++u) {
+  }
+  for (; u < columns; ++u)
+    for (const auto& [codes, bits] : kinds) {
       if (isOneOf(row[u], codes.rising)) bits.rising.set(v, u);
       if (isOneOf(row[u], codes.falling)) bits.falling.set(v, u);
     }
-  }
-  return bits;
 }
 
 /// Bit c of byte r becomes bit r of byte c (Warren, "Hacker's Delight", 7-3).
@@ -83,11 +88,18 @@ StepBits transposed(const StepBits& rows, int height, int width) {
 
 }  // namespace
 
-EdgeBits edgeBits(const cv::Mat& edges, bool steep) {
-  if (steep) return rowBits(edges, kSteep);
-  const EdgeBits rows = rowBits(edges, kFlat);
-  return {transposed(rows.rising, edges.rows, edges.cols),
-          transposed(rows.falling, edges.rows, edges.cols)};
+BitsOfBoth bitsOfBoth(const cv::Mat& edges) {
+  const StepBits none(edges.rows, edges.cols);
+  EdgeBits steep{none, none}, flat{none, none};
+  for (int v = 0; v < edges.rows; ++v)
+    setRowBits(edges.ptr<std::uint8_t>(v), edges.cols, v, {{kSteep, steep}, {kFlat, flat}});
+  return {std::move(steep),
+          {transposed(flat.rising, edges.rows, edges.cols),
+           transposed(flat.falling, edges.rows, edges.cols)}};
+}
+
+void setSteepBits(const std::uint8_t* edges, int columns, int row, EdgeBits& bits) {
+  setRowBits(edges, columns, row, {{kSteep, bits}});
 }
 
 }  // namespace colonnade

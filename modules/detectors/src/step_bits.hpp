@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -34,6 +35,18 @@ class StepBits {
     auto& byte = bytes_[byteOf(s, t)];
     byte = static_cast<std::uint8_t>(byte & ~(1U << (t % 8)));
   }
+  /// Calls take(t) for every bit of a step that is set.
+  template <class Take>
+  void each(int s, Take&& take) const {
+    const std::size_t first = static_cast<std::size_t>(s) * stride_;
+    for (std::size_t i = 0; i < stride_; i += sizeof(std::uint64_t)) {
+      std::uint64_t word;
+      std::memcpy(&word, &bytes_[first + i], sizeof word);
+      const std::size_t left = 8 * (stride_ - i);  // the next step follows
+      if (left < 64) word &= (std::uint64_t{1} << left) - 1;
+      for (; word != 0; word &= word - 1) take(static_cast<int>(8 * i) + std::countr_zero(word));
+    }
+  }
   /// The bytes of a step: t = 0 in the lowest bit of the first.
   std::uint8_t* step(int s) { return &bytes_[static_cast<std::size_t>(s) * stride_]; }
   const std::uint8_t* step(int s) const { return &bytes_[static_cast<std::size_t>(s) * stride_]; }
@@ -51,6 +64,12 @@ class StepBits {
 struct EdgeBits {
   StepBits rising, falling;
 };
-EdgeBits edgeBits(const cv::Mat& edges, bool steep);
+struct BitsOfBoth {
+  EdgeBits steep;  ///< the steps are rows
+  EdgeBits flat;   ///< the steps are columns
+};
+BitsOfBoth bitsOfBoth(const cv::Mat& edges);
+/// Those of steep lines in one row; the bits there must be zero before.
+void setSteepBits(const std::uint8_t* edges, int columns, int row, EdgeBits& bits);
 
 }  // namespace colonnade

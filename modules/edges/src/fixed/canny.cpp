@@ -94,9 +94,10 @@ CannyResult canny(const cv::Mat& gray, const FixedParameters& parameters, int hy
   CannyResult result;
   result.edges.create(gray.size(), CV_8UC1);
   Suppression(gray, parameters).run(result.edges, candidates, strong, words_per_row);
-  for (int pass = 0; pass < hysteresis_passes; ++pass) {
-    hysteresisPass(candidates.data(), strong.data(), gray.rows, words_per_row);
-  }
+  hysteresis(candidates.data(), strong.data(), gray.rows, words_per_row, hysteresis_passes);
+  std::size_t pixels = 0;
+  for (const std::uint64_t word : strong) pixels += static_cast<std::size_t>(std::popcount(word));
+  for (auto& some : result.of_direction) some.reserve(pixels);
   for (int row = 0; row < gray.rows; ++row) {
     auto* code = result.edges.ptr<std::uint8_t>(row);
     for (int i = 0; i < words_per_row; ++i) {

@@ -30,16 +30,22 @@ int classOf(int theta_deg, const FixedParameters& parameters) {
                                                                                               : 1;
 }
 
-/// Adds the votes of the pixels from `first` on.
+/// Adds the votes of the pixels from `first` on, every other one to `others`: neighbouring pixels
+/// often vote for the same bin, and would have to wait for each other.
 void vote(const std::vector<Pixel>& pixels, std::size_t first, const AngleEntry& angle, int reach,
-          unsigned short* bins) {
+          unsigned short* bins, unsigned short* others) {
   constexpr std::size_t kBlock = 512;
   std::int32_t block[kBlock];
   const int offset = (reach << kAngleFraction) + (1 << (kAngleFraction - 1));
   for (std::size_t i = first; i < pixels.size(); i += kBlock) {
     const std::size_t count = std::min(kBlock, pixels.size() - i);
     rhoBins(pixels.data() + i, static_cast<int>(count), angle.cosine, angle.sine, offset, block);
-    for (std::size_t k = 0; k < count; ++k) ++bins[block[k]];
+    std::size_t k = 0;
+    for (; k + 2 <= count; k += 2) {
+      ++bins[block[k]];
+      ++others[block[k + 1]];
+    }
+    if (k < count) ++bins[block[k]];
   }
 }
 
@@ -81,14 +87,18 @@ std::vector<FixedLine> houghLines(const CannyResult& edges, const FixedShape& sh
   const auto enabled = [&](std::size_t a) {
     return parameters.enabled.empty() || (a < parameters.enabled.size() && parameters.enabled[a]);
   };
+  std::vector<unsigned short> others(stride);
   for (std::size_t a = 0; a < angles.size(); ++a) {
     if (!enabled(a)) continue;
+    std::fill(others.begin(), others.end(), static_cast<unsigned short>(0));
     const auto& angle = kAngleTable[static_cast<std::size_t>(angles[a] - kFirstAngle_deg)];
     const bool inclined = classOf(angles[a], parameters) == 1;
     for (std::size_t d = 0; d < 4; ++d) {
       if (!(angle.admitted >> d & 1)) continue;
-      vote(edges.of_direction[d], inclined ? first_inclined[d] : 0, angle, reach, binsOf(a));
+      vote(edges.of_direction[d], inclined ? first_inclined[d] : 0, angle, reach, binsOf(a),
+           others.data());
     }
+    addVotes(others.data(), 2 * reach + 1, binsOf(a));
   }
 
   std::vector<FixedLine> lines;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "hysteresis.hpp"
 
+#include <vector>
+
 namespace colonnade::fixed {
 namespace {
 
@@ -23,26 +25,48 @@ std::uint64_t around(const std::uint64_t* row, int i, int words) {
   return s.from_left | s.from_right | s.here;
 }
 
+/// One row of a pass; whether it changed.
+bool passRow(const std::uint64_t* mask, std::uint64_t* here, bool has_above, bool has_below,
+             int words) {
+  std::uint64_t left = 0;  // whether the pixel left of this word is strong
+  std::uint64_t gained = 0;
+  for (int i = 0; i < words; ++i) {
+    if (mask[i] == 0) {
+      left = 0;
+      continue;
+    }
+    const std::uint64_t former = here[i];
+    std::uint64_t seeds = spread(here, i, words).from_right;
+    if (has_above) seeds |= around(here - words, i, words);
+    if (has_below) seeds |= around(here + words, i, words);
+    seeds = (seeds | former | left) & mask[i];
+    // Adding a seed to a run of ones carries along the run: what the sum clears is reached.
+    here[i] = (mask[i] & ~(mask[i] + seeds)) | seeds;
+    gained |= here[i] ^ former;
+    left = here[i] >> 63;
+  }
+  return gained != 0;
+}
+
 }  // namespace
 
-void hysteresisPass(const std::uint64_t* candidates, std::uint64_t* strong, int rows,
-                    int words_per_row) {
-  for (int row = 0; row < rows; ++row) {
-    const std::uint64_t* mask = candidates + row * words_per_row;
-    std::uint64_t* here = strong + row * words_per_row;
-    std::uint64_t left = 0;  // whether the pixel left of this word is strong
-    for (int i = 0; i < words_per_row; ++i) {
-      if (mask[i] == 0) {
-        left = 0;
-        continue;
-      }
-      std::uint64_t seeds = spread(here, i, words_per_row).from_right;
-      if (row > 0) seeds |= around(here - words_per_row, i, words_per_row);
-      if (row + 1 < rows) seeds |= around(here + words_per_row, i, words_per_row);
-      seeds = (seeds | here[i] | left) & mask[i];
-      // Adding a seed to a run of ones carries along the run: what the sum clears is reached.
-      here[i] = (mask[i] & ~(mask[i] + seeds)) | seeds;
-      left = here[i] >> 63;
+void hysteresis(const std::uint64_t* candidates, std::uint64_t* strong, int rows, int words_per_row,
+                int passes) {
+  // A row can only change where it or one beside it has changed since it was last looked at: in the
+  // pass before it and the row below, in this one the row above. So later passes leave out most
+  // rows. A row beyond the last one never changes.
+  std::vector<std::uint8_t> changed(static_cast<std::size_t>(rows) + 1, 1);
+  changed.back() = 0;
+  for (int pass = 0; pass < passes; ++pass) {
+    bool above_changed = false;
+    for (int row = 0; row < rows; ++row) {
+      auto* const here = &changed[static_cast<std::size_t>(row)];
+      if (above_changed || here[0] || here[1])
+        above_changed = passRow(candidates + row * words_per_row, strong + row * words_per_row,
+                                row > 0, row + 1 < rows, words_per_row);
+      else
+        above_changed = false;
+      here[0] = above_changed ? 1 : 0;
     }
   }
 }

@@ -3,7 +3,7 @@
 #include "row_kernels.hpp"
 
 #include <algorithm>
-#include <cstring>
+#include <opencv2/core/hal/intrin.hpp>
 
 #include "colonnade/base/vector_kernel.hpp"
 #include "colonnade/edges/angle_table.hpp"
@@ -50,14 +50,15 @@ void gradientRow(const std::uint8_t* above, const std::uint8_t* here, const std:
   std::uint16_t* __restrict m = magnitude;
   std::uint16_t* __restrict s = sector;
   for (int i = 0; i < width; ++i) {
-    const auto along_u =
-        static_cast<std::int16_t>(p[i + 1] + c[i + 1] + n[i + 1] - p[i - 1] - c[i - 1] - n[i - 1]);
-    const auto along_v =
-        static_cast<std::int16_t>(n[i - 1] + n[i] + n[i + 1] - p[i - 1] - p[i] - p[i + 1]);
-    const auto falling =
-        static_cast<std::int16_t>(n[i] + n[i + 1] + c[i + 1] - p[i - 1] - p[i] - c[i - 1]);
-    const auto rising =
-        static_cast<std::int16_t>(n[i - 1] + n[i] + c[i - 1] - p[i] - p[i + 1] - c[i + 1]);
+    // All four operators from the differences of opposite neighbours.
+    const auto across = static_cast<std::int16_t>(c[i + 1] - c[i - 1]);
+    const auto down = static_cast<std::int16_t>(n[i] - p[i]);
+    const auto to_se = static_cast<std::int16_t>(n[i + 1] - p[i - 1]);
+    const auto to_sw = static_cast<std::int16_t>(n[i - 1] - p[i + 1]);
+    const auto along_u = static_cast<std::int16_t>(to_se - to_sw + across);
+    const auto along_v = static_cast<std::int16_t>(to_se + to_sw + down);
+    const auto falling = static_cast<std::int16_t>(to_se + down + across);
+    const auto rising = static_cast<std::int16_t>(to_sw + down - across);
     // Equal magnitudes: u before v before the diagonals.
     std::int16_t best = static_cast<std::int16_t>(along_u < 0 ? -along_u : along_u);
     std::int16_t code = along_u < 0 ? 4 : 0;
@@ -117,6 +118,13 @@ void rhoBins(const Pixel* pixels, int count, int cosine, int sine, int offset, s
 }
 
 COLONNADE_VECTOR_KERNEL
+void addVotes(const std::uint16_t* other, int count, std::uint16_t* sum) {
+  const std::uint16_t* __restrict more = other;
+  std::uint16_t* __restrict to = sum;
+  for (int i = 0; i < count; ++i) to[i] = static_cast<std::uint16_t>(to[i] + more[i]);
+}
+
+COLONNADE_VECTOR_KERNEL
 int nextAtLeast(const std::uint16_t* votes, int from, int count, int least) {
   constexpr int kBlock = 64;
   for (; from + kBlock <= count; from += kBlock) {
@@ -129,17 +137,14 @@ int nextAtLeast(const std::uint16_t* votes, int from, int count, int least) {
 }
 
 void packBits(const std::uint8_t* bytes, int width, std::uint64_t* words) {
+  using Lanes = cv::v_uint8x16;
   for (int start = 0; start < width; start += 64) {
     std::uint64_t word = 0;
     const int end = std::min(64, width - start);
     int i = 0;
-    for (; i + 8 <= end; i += 8) {
-      std::uint64_t eight;  // byte 0 lowest: little endian, as everywhere here
-      std::memcpy(&eight, bytes + start + i, 8);
-      // The highest bit of each byte says whether it is not zero; the product puts them side by
-      // side.
-      eight = (eight + 0x7f7f7f7f7f7f7f7fU) & 0x8080808080808080U;
-      word |= (eight * 0x0002040810204081U >> 56) << i;
+    for (; i + Lanes::nlanes <= end; i += Lanes::nlanes) {
+      const Lanes set = cv::v_load(bytes + start + i) != cv::v_setzero_u8();
+      word |= static_cast<std::uint64_t>(static_cast<std::uint32_t>(cv::v_signmask(set))) << i;
     }
     for (; i < end; ++i) word |= static_cast<std::uint64_t>(bytes[start + i] != 0) << i;
     words[start / 64] = word;

@@ -28,7 +28,6 @@ void suppressRow(const std::uint16_t* above, const std::uint16_t* here, const st
                  std::uint8_t* strong);
 
 /// Packs the bytes that are not zero into bits, column 0 lowest; the last word is filled with 0.
-/// No byte may be above 128.
 void packBits(const std::uint8_t* bytes, int width, std::uint64_t* words);
 
 /// An edge pixel, from the image's centre.
@@ -39,6 +38,9 @@ struct Pixel {
 
 /// bins[i] = (x cosine + y sine + offset) >> kAngleFraction of pixel i.
 void rhoBins(const Pixel* pixels, int count, int cosine, int sine, int offset, std::int32_t* bins);
+
+/// sum[i] += other[i].
+void addVotes(const std::uint16_t* other, int count, std::uint16_t* sum);
 
 /// The first place in [from, count) with at least that many votes; count if there is none.
 int nextAtLeast(const std::uint16_t* votes, int from, int count, int least);
