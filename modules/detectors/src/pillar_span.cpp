@@ -23,7 +23,7 @@ constexpr double kEnd_px = 6.0;          // by which a line may end too early
 constexpr double kTallFade_m = 1.0;      // of an edge whose contrast may fade before it ends
 constexpr double kFadePart = 0.2;        // of the seen edge, at its end and before that
 constexpr double kFaded = 0.6, kFading = 0.85;  // of its contrast, there and before that
-constexpr double kFaintest = 18.0;              // gray levels: where lines cease to be found
+constexpr double kFaintest = 20.0;              // gray levels: where lines cease to be found
 constexpr double kHeadDoubt_m = 0.2;            // of min_head_m, to call an edge tall
 constexpr double kFar_m = 1e3;
 constexpr double kLeastContrast = 4.5;  // gray levels, median: more than noise and shades leave
