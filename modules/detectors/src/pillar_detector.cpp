@@ -25,6 +25,10 @@ struct Bearing {
   double variance = 0.0;
 };
 
+/// Gray levels per pixel: no shade on a surface rises so steeply. What does and is wide all the
+/// same are two edges side by side, such as those of a frame.
+constexpr double kSteepest = 9.0;
+
 /// Variance of the bearing through one pixel of the line: a pixel aside turns it, and a tilt error
 /// t by t * tan(elevation).
 double bearingVariance(const LevelledCamera& camera, const RefinedLine& line, double s,
@@ -169,7 +173,8 @@ Detections PillarDetector::detect(const Frame& frame, const RefinedLines& given)
             options_.parallel_tolerance + 2.0 * std::sqrt(line.covariance(1, 1)))
       detection.refusal = "leans over";
     const AcrossProfile& profile = profiles[i];
-    if (detection.accepted() && profile.width() > common_width.limit())
+    const bool steep = range.range_m > 0.0 && profile.steepest() > kSteepest;
+    if (detection.accepted() && !steep && profile.width() > common_width.limit())
       detection.refusal = "a shade without an edge";
     if (detection.accepted()) {
       const auto seen_m = range.range_m > 0.0 ? std::optional(range.range_m) : std::nullopt;
