@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "colonnade/detectors/pillar_memory.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace colonnade {
@@ -30,6 +31,18 @@ PillarMemory::Place* PillarMemory::nearest(const Eigen::Vector2d& p_robot) {
   return found;
 }
 
+/// The lower part of a pillar may be brighter than the floor behind it and the upper one darker
+/// than the wall: two edges, of which the lower one ends.
+bool PillarMemory::goesOnAbove(const Detections& detections, const Detection& low,
+                               const Eigen::Vector2d& p_robot) const {
+  constexpr double kHigher_px = 10.0;
+  return std::any_of(detections.begin(), detections.end(), [&](const Detection& other) {
+    if (!other.accepted() || other.a_px.y() > low.a_px.y() - kHigher_px) return false;
+    const auto p_other = placeOf(other);
+    return p_other && (*p_other - p_robot).norm() < options_.gate_m;
+  });
+}
+
 void PillarMemory::move(const Pose2& T_previous_robot) {
   const Pose2 T_robot_previous = T_previous_robot.inverse();
   const double way_m = T_previous_robot.translation().norm();
@@ -47,6 +60,20 @@ void PillarMemory::judge(Detections& detections, const Segmentation& segmentatio
     move(*T_previous_robot);
   else
     places_.clear();
+  // What this frame shows, before anything is refused from memory.
+  struct Sight {
+    Eigen::Vector2d p_robot;
+    bool low;
+  };
+  std::vector<Sight> sights;
+  for (const Detection& edge : detections) {
+    if (edge.height == UprightHeight::kUnknown) continue;
+    const auto p_robot = placeOf(edge);
+    if (!p_robot || segmentation.at(0.5 * (edge.a_px + edge.b_px)) == Segmentation::kMoving)
+      continue;
+    const bool low = edge.height == UprightHeight::kLow;
+    if (!low || !goesOnAbove(detections, edge, *p_robot)) sights.push_back({*p_robot, low});
+  }
   for (Detection& edge : detections) {
     if (!edge.accepted() || edge.height != UprightHeight::kUnknown) continue;
     const auto p_robot = placeOf(edge);
@@ -54,19 +81,15 @@ void PillarMemory::judge(Detections& detections, const Segmentation& segmentatio
     if (!place || place->low <= place->tall) continue;
     refuse(detections, edge, "was too low for a part of the building");
   }
-  for (const Detection& edge : detections) {
-    if (edge.height == UprightHeight::kUnknown) continue;
-    const auto p_robot = placeOf(edge);
-    if (!p_robot || segmentation.at(0.5 * (edge.a_px + edge.b_px)) == Segmentation::kMoving)
-      continue;
-    Place* place = nearest(*p_robot);
+  for (const Sight& sight : sights) {
+    Place* place = nearest(sight.p_robot);
     if (!place) {
       if (places_.size() >= kMostPlaces) places_.erase(places_.begin());
       place = &places_.emplace_back();
     }
-    place->p_robot = *p_robot;
+    place->p_robot = sight.p_robot;
     place->way_m = 0.0;
-    ++(edge.height == UprightHeight::kLow ? place->low : place->tall);
+    ++(sight.low ? place->low : place->tall);
     if (place->low + place->tall <= kMostSights) continue;
     place->low /= 2;
     place->tall /= 2;

@@ -46,6 +46,8 @@ class PillarMemory {
     double way_m = 0.0;     ///< since the last one
   };
   Place* nearest(const Eigen::Vector2d& p_robot);
+  bool goesOnAbove(const Detections& detections, const Detection& low,
+                   const Eigen::Vector2d& p_robot) const;
   void move(const Pose2& T_previous_robot);
 
   PillarMemoryOptions options_;
