@@ -46,7 +46,7 @@ LandmarksInView landmarksBeside(const std::string& stem, const TrueImageLines& c
 bool liesOnEdge(const SlopePixel& pixel, const std::vector<TrueImageLine>& there,
                 double tolerance_px) {
   return std::any_of(there.begin(), there.end(), [&](const TrueImageLine& line) {
-    if (line.kind == LandmarkKind::kFloorEdge) return false;
+    if (line.kind == LandmarkKind::kFloorEdge || line.true_class == TrueClass::kPane) return false;
     const Eigen::Vector2d way = line.b_px - line.a_px;
     const double low = std::min(line.a_px.y(), line.b_px.y());
     const double high = std::max(line.a_px.y(), line.b_px.y());

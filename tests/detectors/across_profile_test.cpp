@@ -37,6 +37,13 @@ std::function<double(int)> darkLine(int width_px, double left = 140.0) {
   return [=](int u) { return u >= kColumn ? 140.0 : (u >= kColumn - width_px ? 60.0 : left); };
 }
 
+TEST(AcrossProfile, TwoEdgesSideBySideAreWideButSteep) {
+  const auto two = [](int u) { return u < kColumn - 1 ? 80.0 : (u < kColumn + 1 ? 110.0 : 140.0); };
+  EXPECT_GT(profileOf(two).width(), 1.3 * profileOf(step).width());
+  EXPECT_GT(profileOf(two).steepest(), 9.0);
+  EXPECT_LT(profileOf(shade).steepest(), 9.0);
+}
+
 TEST(AcrossProfile, AShadeIsWiderThanAnEdge) {
   const double sharp = profileOf(step).width();
   EXPECT_GT(sharp, 1.0);

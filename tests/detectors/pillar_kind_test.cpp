@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 #include <opencv2/imgproc.hpp>
 
 #include "colonnade/base/error.hpp"
@@ -135,6 +136,41 @@ TEST(PillarKind, AnEdgeWhoseFootIsHiddenStays) {
   const auto all = detectAll(withNoise(render(scene, kLevel), 2.0, 3));
   EXPECT_TRUE(seesEdgeAt(all, {3.5, -0.4}));
   EXPECT_TRUE(seesEdgeAt(all, {3.5, 0.4}));
+}
+
+/// A pilaster whose face is darker than its flank by so many gray levels in a row.
+Frame pilaster(const std::function<double(int)>& contrast_at) {
+  constexpr double kFlank = 251.0;
+  Scene scene{{wall(150.0), {{3.5, -0.4}, {3.5, 0.0}, 150.0}, {{3.5, 0.0}, {4.0, 0.3}, kFlank}},
+              {}};
+  scene.floor_gray = 150.0;
+  Frame frame = render(scene, kLevel);
+  for (int v = 0; v < frame.gray.rows; ++v)
+    for (int u = 0; u < frame.gray.cols; ++u) {
+      auto& gray = frame.gray.at<std::uint8_t>(v, u);
+      gray = cv::saturate_cast<std::uint8_t>(150.0 +
+                                             (gray - 150.0) / (kFlank - 150.0) * contrast_at(v));
+    }
+  return withNoise(frame, 2.0, 11);
+}
+
+TEST(PillarKind, AnEdgeWhoseContrastFadesAwayDoesNotEndThere) {
+  const Eigen::Vector2d ridge(3.5, 0.0);
+  const auto fading = [](int v) { return std::max(0.0, 44.0 - 0.18 * v); };
+  EXPECT_TRUE(seesEdgeAt(detectAll(pilaster(fading)), ridge));
+  const auto ending = [](int v) { return v < 160 ? 30.0 : 0.0; };
+  EXPECT_FALSE(seesEdgeAt(detectAll(pilaster(ending)), ridge));
+}
+
+TEST(PillarKind, TwoEdgesSideBySideAreTwo) {
+  // A narrow reveal beside a pillar: both steps rise the same way, 3.5 px apart.
+  Scene scene{{wall(170.0), {{3.5, -0.4}, {3.5, 0.0}, 60.0}, {{3.5, 0.0}, {3.5, 0.023}, 115.0}},
+              {}};
+  const auto all = detectAll(withNoise(render(scene, kLevel), 2.0, 12));
+  int edges = 0;
+  for (const auto& d : accepted(all, LandmarkKind::kPillarEdge))
+    edges += std::abs(d.measurement.z[0] - bearingOf({3.5, 0.0115})) < 0.006;
+  EXPECT_EQ(edges, 2);
 }
 
 TEST(PillarKind, FaintEdgesAreFoundInNoise) {

@@ -83,6 +83,40 @@ TEST_F(PillarScore, SaysWhatIsRightInTheStrictAndInTheWideSense) {
   EXPECT_EQ(1U, kind.lie_on.at("nothing"));
 }
 
+TEST_F(PillarScore, TheLimitsHoldForWhateverALineLiesOn) {
+  TrueImageLine far = truth(100, 0, 200, 9.0), faint = truth(200, 0, 200, 3.0, 5.0);
+  TrueImageLine near = truth(300, 0, 200);
+  for (TrueImageLine* line : {&far, &faint, &near}) line->true_class = TrueClass::kMovable;
+  const auto& kind = scored({upright(100, 0, 200), upright(200, 0, 200), upright(300, 0, 200)},
+                            {far, faint, near});
+  EXPECT_EQ(2U, kind.ignored);
+  EXPECT_DOUBLE_EQ(0.0, kind.precision());
+}
+
+TEST_F(PillarScore, CountsOpenDoorsApart) {
+  TrueImageLine leaf = truth(200, 0, 200);
+  leaf.true_class = TrueClass::kLeaf;
+  const auto& kind = scored({upright(100, 0, 200), upright(200, 0, 200), upright(300, 0, 200)},
+                            {truth(100, 0, 200), leaf});
+  EXPECT_DOUBLE_EQ(1.0 / 3.0, kind.precision());
+  EXPECT_DOUBLE_EQ(0.5, kind.precisionNoLeaf());
+  EXPECT_DOUBLE_EQ(2.0 / 3.0, kind.precisionWide());
+  EXPECT_EQ(1U, kind.wanted);
+}
+
+TEST_F(PillarScore, WhatLiesBehindAPaneIsNotKnown) {
+  TrueImageLine pane;
+  pane.true_class = TrueClass::kPane;
+  pane.a_px = {80, 0};
+  pane.b_px = {150, 220};
+  const auto& kind = scored({upright(100, 0, 200), upright(120, 0, 300), upright(145, 0, 200)},
+                            {pane, truth(145, 0, 210)});
+  EXPECT_EQ(1U, kind.ignored);  // the second one leaves it
+  EXPECT_EQ(1U, kind.right);
+  EXPECT_DOUBLE_EQ(0.5, kind.precision());
+  EXPECT_EQ(1U, kind.wanted);
+}
+
 TEST_F(PillarScore, ALandmarkWithinReachCountsBeforeAMarkBesideIt) {
   TrueImageLine mark = truth(102, 0, 200);
   mark.true_class = TrueClass::kFixed;

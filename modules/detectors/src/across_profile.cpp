@@ -52,12 +52,18 @@ AcrossProfile::AcrossProfile(const cv::Mat& gray, const RefinedLine& line) {
   for (std::size_t k = 0; k < sums_.size(); ++k) sums_[k] = (sums_[k] + sums[k]) * share;
 }
 
-double AcrossProfile::width() const {
-  constexpr int kNear_px = 3;                                  // the peak lies so near the line
-  const auto rise = [&](int k) { return at(k + 1) - at(k); };  // between k and k + 1
+int AcrossProfile::peak() const {
+  constexpr int kNear_px = 3;  // the peak lies so near the line
   int peak = -kNear_px;
   for (int k = -kNear_px; k < kNear_px; ++k)
     if (rise(k) > rise(peak)) peak = k;
+  return peak;
+}
+
+double AcrossProfile::steepest() const { return rise(peak()); }
+
+double AcrossProfile::width() const {
+  const int peak = this->peak();
   const double half = 0.5 * rise(peak);
   double width = 0.0;
   for (const int way : {-1, 1}) {

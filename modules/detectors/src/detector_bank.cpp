@@ -24,7 +24,8 @@ DetectorBank::DetectorBank(const DetectorOptions& options)
       depth_slopes_(options.depth_slopes, options.depth_profile, options.geometry),
       walls_(options.wall_directions, options.depth_profile),
       short_segments_(options.short_segments, options.geometry),
-      segmenter_(options.segmentation) {}
+      segmenter_(options.segmentation),
+      memory_(options.pillar_memory) {}
 
 Detections DetectorBank::detect(const Frame& frame, const EdgeLines& edges,
                                 const std::optional<Pose2>& T_previous_robot) {
@@ -48,6 +49,7 @@ Detections DetectorBank::detect(const Frame& frame, const EdgeLines& edges,
   if (options_.short_segments.enabled && check_.image_usable && check_.depth_usable)
     append(all, short_segments_.detect(frame, edges));
   refuseSegmented(frame, segmentation_, options_.segmentation, all);
+  memory_.judge(all, segmentation_, T_previous_robot);
   return all;
 }
 

@@ -25,6 +25,10 @@ struct Bearing {
   double variance = 0.0;
 };
 
+/// Gray levels per pixel: no shade on a surface rises so steeply. What does and is wide all the
+/// same are two edges side by side, such as those of a frame.
+constexpr double kSteepest = 9.0;
+
 /// Variance of the bearing through one pixel of the line: a pixel aside turns it, and a tilt error
 /// t by t * tan(elevation).
 double bearingVariance(const LevelledCamera& camera, const RefinedLine& line, double s,
@@ -84,11 +88,19 @@ Measurement toMeasurement(const LevelledCamera& camera, const Bearing& bearing,
   return m;
 }
 
-/// Two pieces of one edge, one above the other, are one landmark: the longer piece speaks.
+/// Do two lines run beside each other rather than one above the other?
+bool areSideBySide(const Detection& a, const Detection& b) {
+  constexpr double kShared = 0.4;  // of the rows of the shorter one
+  const double top = std::max(a.a_px.y(), b.a_px.y()), bottom = std::min(a.b_px.y(), b.b_px.y());
+  return bottom - top > kShared * std::min((a.b_px - a.a_px).y(), (b.b_px - b.a_px).y());
+}
+
+/// Two pieces of one edge, one above the other, are one landmark: the longer piece speaks. What
+/// runs beside it, as the second edge of a frame does, is another one.
 bool isSameLandmark(const Detection& a, const Detection& b, double separation) {
   const auto& m = a.measurement;
   const auto& n = b.measurement;
-  if (a.appearance.gradient_sign != b.appearance.gradient_sign) return false;
+  if (a.appearance.gradient_sign != b.appearance.gradient_sign || areSideBySide(a, b)) return false;
   const double apart = std::abs(wrapAngle(m.z[0] - n.z[0]));
   if (apart > std::max(separation, 2.0 * std::sqrt(std::max(m.R(0, 0), n.R(0, 0))))) return false;
   if (!m.hasRange() || !n.hasRange()) return true;
@@ -161,18 +173,31 @@ Detections PillarDetector::detect(const Frame& frame, const RefinedLines& given)
             options_.parallel_tolerance + 2.0 * std::sqrt(line.covariance(1, 1)))
       detection.refusal = "leans over";
     const AcrossProfile& profile = profiles[i];
-    if (detection.accepted() && profile.width() > common_width.limit())
+    const bool steep = range.range_m > 0.0 && profile.steepest() > kSteepest;
+    if (detection.accepted() && !steep && profile.width() > common_width.limit())
       detection.refusal = "a shade without an edge";
     if (detection.accepted()) {
       const auto seen_m = range.range_m > 0.0 ? std::optional(range.range_m) : std::nullopt;
-      const UprightEdge edge{frame.gray,      depth,    reach_m,
-                             camera,          line,     seen_m,
-                             range.one_sided, options_, contrastOf(frame.gray, line)};
+      const bool thin = profile.isThinLine(thinWidth(frame, range));
+      const UprightEdge edge{.gray = frame.gray,
+                             .depth = depth,
+                             .reach_m = reach_m,
+                             .camera = camera,
+                             .line = line,
+                             .range_m = seen_m,
+                             .one_sided = range.one_sided,
+                             .may_fade = range.smooth && !thin,
+                             .options = options_,
+                             .contrast = contrastOf(frame.gray, line)};
       const SeenSpan span = seenSpan(edge, lines);
-      detection.refusal = reasonAgainstSpan(edge, span);
+      const SpanVerdict verdict = judgeSpan(edge, span);
+      detection.refusal = verdict.refusal;
+      // The lines around a door's panels end below the head too, and stand beside its frame.
+      const bool low = verdict.height == UprightHeight::kLow;
+      detection.height = low && thin ? UprightHeight::kUnknown : verdict.height;
+      detection.range_m = range.range_m;
       detection.on_surface =
-          detection.accepted() && (range.smooth || range.one_sided || !seen_m) &&
-          profile.isThinLine(thinWidth(frame, range)) &&
+          detection.accepted() && thin && (range.smooth || range.one_sided || !seen_m) &&
           !(seen_m && reachesFloor(camera, line.at(span.bottom), *seen_m, options_) &&
             !hasGapInside(edge, span));
     }

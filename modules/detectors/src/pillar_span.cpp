@@ -20,6 +20,11 @@ constexpr double kLeastGap_m = 0.12;     // of height without the edge
 constexpr double kLastStretch_m = 0.05;  // before the floor or the head: an edge reaches it or ends
 constexpr double kGapRows = 14.0;        // at least, or kLastStretch_m, without an edge
 constexpr double kEnd_px = 6.0;          // by which a line may end too early
+constexpr double kTallFade_m = 1.0;      // of an edge whose contrast may fade before it ends
+constexpr double kFadePart = 0.2;        // of the seen edge, at its end and before that
+constexpr double kFaded = 0.6, kFading = 0.85;  // of its contrast, there and before that
+constexpr double kFaintest = 20.0;              // gray levels: where lines cease to be found
+constexpr double kHeadDoubt_m = 0.2;            // of min_head_m, to call an edge tall
 constexpr double kFar_m = 1e3;
 constexpr double kLeastContrast = 4.5;  // gray levels, median: more than noise and shades leave
 constexpr double kLeastShare = 0.15;    // of its own contrast that an edge keeps where it goes on
@@ -87,6 +92,24 @@ class Beyond {
       if (between(v, v + stretch).endedWithoutTrace(own_contrast, may_turn)) return true;
     return bottom - top > stretch &&
            between(bottom - stretch, bottom).endedWithoutTrace(own_contrast, may_turn);
+  }
+  /// Has the contrast of a tall edge become weaker and weaker towards an end (way: 1 down, -1 up)
+  /// until it was too faint to be seen, as where the light on its two sides becomes the same?
+  /// Boards, panels and cabinets end at once.
+  bool fadesTowards(const SeenSpan& span, int way, int own_contrast) const {
+    if (heightAt(span.top) - heightAt(span.bottom) < kTallFade_m) return false;
+    const double end = way > 0 ? span.bottom : span.top;
+    const double part = kFadePart * (span.bottom - span.top);
+    const auto contrastWithin = [&](double from, double to) {
+      std::vector<int> contrasts;
+      for (double i = from; i < to; i += 1.0)
+        if (const auto contrast = contrastAt(gray_, line_, end - way * i))
+          contrasts.push_back(*contrast);
+      return medianOf(contrasts);
+    };
+    const int last = contrastWithin(kEnd_px, kEnd_px + part);
+    return last < std::min(kFaded * own_contrast, kFaintest) &&
+           contrastWithin(kEnd_px + part, kEnd_px + 2.0 * part) < kFading * own_contrast;
   }
   Evidence between(double top, double bottom) const {
     const double first = std::max(top, 2.0), last = std::min(bottom, gray_.rows - 3.0);
@@ -197,7 +220,8 @@ bool isElsewhere(const DepthView& depth, const RefinedLine& line, double range_m
 
 /// What continues a line, in the order of their upper ends.
 RefinedLines piecesOf(const UprightEdge& edge, const RefinedLines& lines) {
-  const auto& [gray, depth, reach_m, camera, line, range_m, one_sided, options, contrast] = edge;
+  const auto& [gray, depth, reach_m, camera, line, range_m, one_sided, may_fade, options,
+               contrast] = edge;
   constexpr double kAside_px = 2.5;
   constexpr double kBelowFloor_m = 0.15;
   RefinedLines pieces;
@@ -215,6 +239,36 @@ RefinedLines piecesOf(const UprightEdge& edge, const RefinedLines& lines) {
   std::sort(pieces.begin(), pieces.end(),
             [](const auto& a, const auto& b) { return a.begin < b.begin; });
   return pieces;
+}
+
+bool leavesAbove(const SeenSpan& span) { return span.top < kBorder_px; }
+bool leavesBelow(const UprightEdge& edge, const SeenSpan& span) {
+  return span.bottom > edge.gray.rows - 1 - kBorder_px;
+}
+
+std::string reasonAgainstUnranged(const UprightEdge& edge, const SeenSpan& span) {
+  const PillarOptions& options = edge.options;
+  const double height_m = edge.camera.height();
+  const auto elevation = [&](double v) {
+    const Eigen::Vector3d ray = edge.camera.ray(edge.line.at(v));
+    return ray.z() / ray.head<2>().norm();
+  };
+  if (!leavesAbove(span) && elevation(span.top) < 0.0 && options.min_head_m > height_m)
+    return "ends below the horizon";
+  if (!leavesBelow(edge, span) && elevation(span.bottom) > 0.0 && options.max_foot_m < height_m)
+    return "ends above the horizon";
+  if (leavesBelow(edge, span)) return "";
+  const BeyondUnranged beyond(edge);
+  if (beyond.standsOnNoFloor(span.bottom, options.max_foot_m) &&
+      beyond.endedWithoutTrace(span.bottom, 1))
+    return "ends above the floor";
+  // If the lower end is on the floor, that says how far it is, and so how tall; if it is hidden
+  // or above the floor, the edge is taken for farther and taller than it is.
+  const double foot = elevation(span.bottom), head = elevation(span.top);
+  if (!leavesAbove(span) && foot < 0.0 && height_m * (1.0 - head / foot) < options.min_head_m &&
+      beyond.endedWithoutTrace(span.top, -1))
+    return "too low for a part of the building";
+  return "";
 }
 
 }  // namespace
@@ -253,50 +307,33 @@ bool hasGapInside(const UprightEdge& edge, const SeenSpan& span) {
   return Beyond(edge).hasGap(span.top + kPause_px, span.bottom - kPause_px, edge.contrast, false);
 }
 
-std::string reasonAgainstSpan(const UprightEdge& edge, const SeenSpan& span) {
-  const auto& [gray, depth, reach_m, camera, line, range_m, one_sided, options, own] = edge;
-  const auto elevation = [&](double v) {
-    const Eigen::Vector3d ray = camera.ray(line.at(v));
-    return ray.z() / ray.head<2>().norm();
-  };
-  const bool leaves_above = span.top < kBorder_px;
-  const bool leaves_below = span.bottom > gray.rows - 1 - kBorder_px;
-  if (!range_m) {
-    if (!leaves_above && elevation(span.top) < 0.0 && options.min_head_m > camera.height())
-      return "ends below the horizon";
-    if (!leaves_below && elevation(span.bottom) > 0.0 && options.max_foot_m < camera.height())
-      return "ends above the horizon";
-    if (leaves_below) return "";
-    const BeyondUnranged beyond(edge);
-    if (beyond.standsOnNoFloor(span.bottom, options.max_foot_m) &&
-        beyond.endedWithoutTrace(span.bottom, 1))
-      return "ends above the floor";
-    // If the lower end is on the floor, that says how far it is, and so how tall; if it is hidden
-    // or above the floor, the edge is taken for farther and taller than it is.
-    const double foot = elevation(span.bottom), head = elevation(span.top);
-    if (!leaves_above && foot < 0.0 && camera.height() * (1.0 - head / foot) < options.min_head_m &&
-        beyond.endedWithoutTrace(span.top, -1))
-      return "too low for a part of the building";
-    return "";
-  }
+SpanVerdict judgeSpan(const UprightEdge& edge, const SeenSpan& span) {
+  if (!edge.range_m) return {reasonAgainstUnranged(edge, span)};
   const Beyond beyond(edge);
+  const PillarOptions& options = edge.options;
   const double foot_m = beyond.heightAt(span.bottom), head_m = beyond.heightAt(span.top);
   const double row_m = beyond.heightAt(span.bottom) - beyond.heightAt(span.bottom + 1.0);
   const double highest_foot_m = options.max_foot_m + kEnd_px * row_m;
-  if (!leaves_below && foot_m > highest_foot_m) {
+  const auto fades = [&](int way) {
+    return edge.may_fade && beyond.fadesTowards(span, way, edge.contrast);
+  };
+  if (!leavesBelow(edge, span) && foot_m > highest_foot_m) {
     const double from = span.bottom + kPause_px;
     const bool may_turn = foot_m < 2.0 * options.max_foot_m;
     const double until_m = std::min(0.5 * options.max_foot_m, foot_m - kLeastGap_m);
-    if (beyond.between(from, beyond.rowAt(until_m)).endedWithoutTrace(own, may_turn) ||
-        beyond.hasGap(from, beyond.rowAt(highest_foot_m), own, may_turn))
-      return "ends above the floor";
+    const bool ends =
+        beyond.between(from, beyond.rowAt(until_m)).endedWithoutTrace(edge.contrast, may_turn) ||
+        beyond.hasGap(from, beyond.rowAt(highest_foot_m), edge.contrast, may_turn);
+    if (ends && !fades(1)) return {"ends above the floor"};
   }
-  if (!leaves_above && head_m < options.min_head_m) {
+  if (!leavesAbove(span) && head_m < options.min_head_m) {
     const double from = span.top - kPause_px;
     const double until = beyond.rowAt(std::max(options.min_head_m, head_m + kLeastGap_m));
-    if (beyond.hasGap(until, from, own, false)) return "too low for a part of the building";
+    if (beyond.hasGap(until, from, edge.contrast, false) && !fades(-1))
+      return {"too low for a part of the building", UprightHeight::kLow};
   }
-  return "";
+  const bool tall = head_m > options.min_head_m - kHeadDoubt_m;
+  return {"", tall ? UprightHeight::kTall : UprightHeight::kUnknown};
 }
 
 }  // namespace colonnade

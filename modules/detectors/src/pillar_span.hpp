@@ -22,6 +22,7 @@ struct UprightEdge {
   const RefinedLine& line;
   std::optional<double> range_m;  ///< horizontal, of the edge, if known
   bool one_sided;                 ///< depth fails on one side of it
+  bool may_fade;                  ///< no jump in depth, no thin line: its contrast may fade away
   const PillarOptions& options;
   int contrast;  ///< gray levels in the sense of its gradient, median over the line
 };
@@ -45,7 +46,11 @@ bool hasGapInside(const UprightEdge& edge, const SeenSpan& span);
 /// board, a panel, a table or a chair.
 /// Without a range only the horizon tells, for what does not cross it cannot be both standing and
 /// taller than the camera is high.
-/// Returns why it is none, or nothing.
-std::string reasonAgainstSpan(const UprightEdge& edge, const SeenSpan& span);
+/// The contrast of a tall edge may also fade away.
+struct SpanVerdict {
+  std::string refusal;  ///< why it is none, or nothing
+  UprightHeight height = UprightHeight::kUnknown;
+};
+SpanVerdict judgeSpan(const UprightEdge& edge, const SeenSpan& span);
 
 }  // namespace colonnade

@@ -63,14 +63,9 @@ void refuseSegmented(const Frame& frame, const Segmentation& segmentation,
     if (!detection.accepted()) continue;
     const Shares shares = sharesOf(detection, camera, segmentation);
     if (shares.moving >= std::max(options.min_share_on_moving, 1e-3))
-      detection.refusal = "moving";
+      refuse(detections, detection, "moving");
     else if (shares.reflective >= std::max(options.min_share_on_reflective, 1e-3))
-      detection.refusal = "reflective";
-    if (detection.accepted() || !detection.partner) continue;
-    detections[*detection.partner].partner.reset();
-    detections[*detection.partner].width_m = 0.0;
-    detection.partner.reset();
-    detection.width_m = 0.0;
+      refuse(detections, detection, "reflective");
   }
 }
 

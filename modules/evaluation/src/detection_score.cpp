@@ -20,14 +20,17 @@ std::optional<LandmarkKind> kindOfName(const std::string& text) {
   return std::nullopt;
 }
 
-/// The kind and class of a row; nothing for what is no line, such as a person.
+/// The kind and class of a row; nothing for a person or a mirror, in which there is nothing to
+/// find.
 std::optional<std::pair<LandmarkKind, TrueClass>> meaningOf(const std::string& text) {
   if (const auto kind = kindOfName(text)) return std::pair(*kind, TrueClass::kWanted);
   const auto upright = [](TrueClass what) { return std::pair(LandmarkKind::kPillarEdge, what); };
   if (text == "round") return upright(TrueClass::kWanted);
   if (text == "minor") return upright(TrueClass::kStructure);
   if (text == "furniture") return upright(TrueClass::kMovable);
-  for (const char* fixed : {"fixture", "mark", "leaf", "cabinet"})
+  if (text == "leaf") return upright(TrueClass::kLeaf);
+  if (text == "glass") return upright(TrueClass::kPane);
+  for (const char* fixed : {"fixture", "mark", "cabinet"})
     if (text == fixed) return upright(TrueClass::kFixed);
   return std::nullopt;
 }
@@ -63,6 +66,16 @@ bool isWithinLimits(const TrueImageLine& line, const DetectionScoreOptions& opti
   return line.visible_px >= options.min_visible_px &&
          (by_depth || line.contrast >= options.min_contrast) &&
          (!line.distance_m || *line.distance_m <= farthest_m);
+}
+
+/// Does a line lie in the box around a pane?
+bool liesIn(const TrueImageLine& pane, const ImageLine& seen, double tolerance_px) {
+  const Eigen::Vector2d least = pane.a_px.array() - tolerance_px;
+  const Eigen::Vector2d most = pane.b_px.array() + tolerance_px;
+  const auto inside = [&](const Eigen::Vector2d& p_px) {
+    return (p_px.array() >= least.array()).all() && (p_px.array() <= most.array()).all();
+  };
+  return inside(seen.a_px) && inside(seen.b_px);
 }
 
 bool isWanted(const TrueImageLine& line, const DetectionScoreOptions& options) {
@@ -106,14 +119,14 @@ TrueImageLines readColumnsCsv(const std::filesystem::path& path) {
   while (const auto row = table.next()) {
     auto& frame = lines[microseconds(row->number("stamp"))];
     const auto meaning = meaningOf(row->text("kind"));
-    if (!meaning) continue;  // a person, glass: nothing to find
+    if (!meaning) continue;
     TrueImageLine line;
     std::tie(line.kind, line.true_class) = *meaning;
     line.called = row->text("kind");
     line.a_px = {row->number("u0"), row->number("v0")};
     line.b_px = {row->number("u1"), row->number("v1")};
     if (!row->empty("range_m")) line.distance_m = row->number("range_m");
-    line.landmark = row->integer("id");
+    if (line.true_class != TrueClass::kPane) line.landmark = row->integer("id");
     line.visible_px = row->number("length_px");
     line.contrast = row->empty("contrast") ? 0.0 : std::abs(row->number("contrast"));
     frame.push_back(line);
@@ -129,18 +142,22 @@ void DetectionScore::add(const std::vector<ImageLine>& detected,
     ++kind.detected;
     std::optional<double> nearest;
     std::size_t nearest_line = 0;
-    bool within_limits = false;              // is one of the lines of the building it lies on
+    bool within_limits[2] = {};  // by rank: is one of the lines it lies on
+    bool in_pane = false;
     double closest = options_.tolerance_px;  // to any line at rest: what it really is
     const auto rank = [&](std::size_t i) {   // what counts most, then what lies nearest
-      return there[i].true_class > TrueClass::kStructure;
+      return there[i].true_class > TrueClass::kStructure ? 1 : 0;
     };
     for (std::size_t i = 0; i < there.size(); ++i) {
       if (there[i].kind != seen.kind) continue;
+      if (there[i].true_class == TrueClass::kPane) {
+        in_pane |= liesIn(there[i], seen, options_.tolerance_px);
+        continue;
+      }
       const auto offset = offsetAcross(seen, there[i], options_);
       if (!offset) continue;
       found[i] = true;
-      within_limits |=
-          there[i].true_class <= TrueClass::kStructure && isWithinLimits(there[i], options_);
+      within_limits[rank(i)] |= isWithinLimits(there[i], options_);
       if (there[i].true_class <= TrueClass::kFixed) closest = std::min(closest, std::abs(*offset));
       if (nearest && std::pair(rank(nearest_line), std::abs(*nearest)) <=
                          std::pair(rank(i), std::abs(*offset)))
@@ -148,8 +165,8 @@ void DetectionScore::add(const std::vector<ImageLine>& detected,
       nearest = offset;
       nearest_line = i;
     }
-    if (nearest && seen.kind == LandmarkKind::kPillarEdge && !within_limits &&
-        there[nearest_line].true_class <= TrueClass::kStructure) {
+    if (seen.kind == LandmarkKind::kPillarEdge &&
+        (nearest ? !within_limits[rank(nearest_line)] : in_pane)) {
       ++kind.ignored;
       continue;
     }
@@ -157,6 +174,7 @@ void DetectionScore::add(const std::vector<ImageLine>& detected,
                   : there[nearest_line].called.empty() ? name(seen.kind)
                                                        : there[nearest_line].called];
     if (!nearest) continue;
+    kind.on_leaves += there[nearest_line].true_class == TrueClass::kLeaf ? 1 : 0;
     kind.right_wide += there[nearest_line].true_class <= TrueClass::kFixed ? 1 : 0;
     if (there[nearest_line].true_class > TrueClass::kStructure) continue;
     ++kind.right;
@@ -178,6 +196,9 @@ void DetectionScore::add(const std::vector<ImageLine>& detected,
 
 double DetectionScore::Kind::precision() const { return share(right, detected - ignored); }
 double DetectionScore::Kind::precisionWide() const { return share(right_wide, detected - ignored); }
+double DetectionScore::Kind::precisionNoLeaf() const {
+  return share(right, detected - ignored - on_leaves);
+}
 double DetectionScore::Kind::recall() const { return share(found, wanted); }
 double DetectionScore::Kind::offsetRms() const {
   return right == 0 ? 0.0 : std::sqrt(offset_squares / static_cast<double>(right));
@@ -198,6 +219,8 @@ nlohmann::ordered_json toJson(const DetectionScore& score) {
         {"ignored", kind.ignored},
         {"precision", orNull(kind.detected > kind.ignored, kind.precision())},
         {"precision_wide", orNull(kind.detected > kind.ignored, kind.precisionWide())},
+        {"precision_no_leaf",
+         orNull(kind.detected > kind.ignored + kind.on_leaves, kind.precisionNoLeaf())},
         {"wanted", kind.wanted},
         {"recall", orNull(kind.wanted > 0, kind.recall())},
         {"offset_rms_px", orNull(kind.right > 0, kind.offsetRms())},
@@ -223,9 +246,10 @@ std::string toText(const DetectionScore& score) {
     };
     line +=
         "precision " + orDash(kind.detected > kind.ignored, kind.precision(), 3) +
-        (kind.right_wide > kind.right ? " (" + formatFixed(kind.precisionWide(), 3) +
-                                            " with boards, panels, cabinets, open doors)"
-                                      : "") +
+        (kind.right_wide > kind.right
+             ? " (" + formatFixed(kind.precisionNoLeaf(), 3) + " without open doors, " +
+                   formatFixed(kind.precisionWide(), 3) + " with them, boards, panels, cabinets)"
+             : "") +
         " of " + std::to_string(kind.detected - kind.ignored) +
         (kind.ignored > 0 ? " (" + std::to_string(kind.ignored) + " beyond limits ignored)" : "") +
         ", recall " + orDash(kind.wanted > 0, kind.recall(), 3) + " of " +

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "colonnade/base/measurement.hpp"
@@ -19,6 +20,13 @@ struct Appearance {
   Eigen::Vector3f right = Eigen::Vector3f::Zero();  ///< (for floor edges: near and far side)
 };
 
+/// What a frame shows of how tall an upright edge is.
+enum class UprightHeight {
+  kUnknown,  ///< its upper end is out of the picture or hidden
+  kLow,      ///< it ends lower than a part of the building would
+  kTall      ///< it does not
+};
+
 /// One landmark seen in one frame.
 struct Detection {
   Measurement measurement;
@@ -31,15 +39,30 @@ struct Detection {
   /// Pillar edges: the other edge of the same pillar, as an index into the frame's detections.
   std::optional<std::size_t> partner;
   double width_m = 0.0;  ///< pillars whose two edges have range, otherwise 0
-  /// Accepted pillar edges: a line of paint, a joint or a gap with the same surface on both sides. It
-  /// stays where it is, and so serves as a landmark, but is no edge of a pillar, frame or wall.
+  /// Pillar edges: from the camera, horizontal, also where it is too doubtful for a measurement; 0
+  /// where it is not known.
+  double range_m = 0.0;
+  UprightHeight height = UprightHeight::kUnknown;  ///< of pillar edges with a range
+  /// Accepted pillar edges: a line of paint, a joint or a gap with the same surface on both sides.
+  /// It stays where it is, and so serves as a landmark, but is no edge of a pillar, frame or wall.
   bool on_surface = false;
-  std::string refusal;   ///< why the detector does not stand behind it; empty = accepted
+  std::string refusal;  ///< why the detector does not stand behind it; empty = accepted
 
   LandmarkKind kind() const { return measurement.kind; }
   bool accepted() const { return refusal.empty(); }
 };
 
 using Detections = std::vector<Detection>;
+
+/// Refuses an accepted one of the list; its partner, if any, stands alone then.
+inline void refuse(Detections& detections, Detection& one, std::string reason) {
+  one.refusal = std::move(reason);
+  if (!one.partner) return;
+  Detection& other = detections[*one.partner];
+  other.partner.reset();
+  other.width_m = 0.0;
+  one.partner.reset();
+  one.width_m = 0.0;
+}
 
 }  // namespace colonnade

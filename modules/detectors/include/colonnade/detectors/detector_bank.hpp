@@ -10,6 +10,7 @@
 #include "colonnade/detectors/floor_edge_detector.hpp"
 #include "colonnade/detectors/frame_check.hpp"
 #include "colonnade/detectors/pillar_detector.hpp"
+#include "colonnade/detectors/pillar_memory.hpp"
 #include "colonnade/detectors/segmentation.hpp"
 #include "colonnade/detectors/short_segment_detector.hpp"
 #include "colonnade/detectors/wall_direction_detector.hpp"
@@ -21,6 +22,7 @@ struct DetectorOptions {
   GeometryOptions geometry;
   LineRefinementOptions lines;
   PillarOptions pillars;
+  PillarMemoryOptions pillar_memory;
   ShadeOptions shade;
   FloorEdgeOptions floor_edges;
   DepthProfileOptions depth_profile;
@@ -34,6 +36,7 @@ struct DetectorOptions {
     take(geometry);
     take(lines);
     take(pillars);
+    take(pillar_memory);
     take(shade);
     take(floor_edges);
     take(depth_profile);
@@ -73,6 +76,7 @@ class DetectorBank {
   WallDirectionDetector walls_;
   ShortSegmentDetector short_segments_;
   Segmenter segmenter_;
+  PillarMemory memory_;
   std::vector<WallDirection> wall_directions_;
   DepthProfile profile_;
   Segmentation segmentation_;

@@ -30,9 +30,12 @@ std::optional<ImageLine> clipped(const ImageLine& line, int width_px, int height
 enum class TrueClass {
   kWanted,     ///< a landmark: right, and missed where it is not found (kinds of landmarks; round)
   kStructure,  ///< an edge of the building beside a listed one: right, not missed (minor)
-  kFixed,      ///< vertical and at rest, but no edge that stands on the floor and stays where it is
-               ///< (fixture, mark, leaf, cabinet): right in the wide sense only
-  kMovable,    ///< furniture: wrong
+  kLeaf,     ///< of an open door, at rest, but perhaps elsewhere tomorrow: right in the wide sense
+             ///< only, and counted apart
+  kFixed,    ///< vertical and at rest, but no edge that stands on the floor and stays where it is
+             ///< (fixture, mark, cabinet): right in the wide sense only
+  kMovable,  ///< furniture: wrong
+  kPane,     ///< no line but the box around a pane: what lies behind is not in the table
 };
 
 /// What really is in that picture.
@@ -62,10 +65,11 @@ struct DetectionScoreOptions {
 /// Scores detections of one kind over many pictures.
 ///   precision: share of the detections that lie on a true line of their kind:
 ///     for pillars an edge of the building that stands on the floor, or the outline of a round one.
-///     Pillars on such an edge that is farther, shorter or fainter than the options ask for are
-///     ignored: neither right nor wrong. On anything else they are wrong, wherever it is
+///     Pillars on a line of whatever it be that is farther, shorter or fainter than the options ask
+///     for are ignored: neither right nor wrong. So are those on nothing that lie in a pane
 ///   precision_wide: pillars on any line that is vertical in space and stays where it is counted
 ///     as right too: boards, joints, panels, open doors, cabinets. Never table legs or people
+///   precision_no_leaf: as precision, without those on leaves of open doors
 ///   recall: share of the true lines to be found that have a detection
 ///   offset_rms_px: across the line, of right detections from the nearest line at rest
 class DetectionScore {
@@ -76,7 +80,7 @@ class DetectionScore {
   void add(const std::vector<ImageLine>& detected, const std::vector<TrueImageLine>& there);
 
   struct Kind {
-    std::size_t detected = 0, right = 0, right_wide = 0, ignored = 0;
+    std::size_t detected = 0, right = 0, right_wide = 0, ignored = 0, on_leaves = 0;
     std::size_t wanted = 0, found = 0;
     double offset_squares = 0.0;
     double distance_squares = 0.0;
@@ -85,6 +89,7 @@ class DetectionScore {
 
     double precision() const;
     double precisionWide() const;
+    double precisionNoLeaf() const;
     double recall() const;
     double offsetRms() const;
     double distanceRms() const;
