@@ -19,13 +19,14 @@ using testing::Scene;
 /// A camera on wheels that moves by `true_step` in each frame, while the wheels read `read_step`.
 class BothOdometries : public ::testing::Test {
  protected:
-  enum class View { kScene, kDark, kOpenEnd, kMovingLight, kWalker };
+  enum class View { kScene, kDark, kOpenEnd, kMovingLight, kWalker, kWalkerInRoom };
   MotionIncrement drive(const Pose2& true_step, const Pose2& read_step,
                         const Eigen::Vector3d& wheel_sigmas, View view = View::kScene) {
     MotionEstimator estimator(options_, std::make_shared<CameraTracker>(options_));
     const bool closed = view != View::kOpenEnd && view != View::kWalker;
     Scene scene = Scene::corridor(true, closed);
     if (view == View::kWalker) scene.person = testing::Person{{1.8, 0.3, 0.0}};
+    if (view == View::kWalkerInRoom) scene.person = testing::Person{{1.4, 0.3, 0.0}, 0.6};
     // Only the floor and the wall ahead: nothing but brightness tells the place across.
     if (view == View::kMovingLight) scene.walls = {scene.walls.front(), scene.walls.back()};
     MotionIncrement motion;
@@ -126,6 +127,12 @@ TEST_F(BothOdometries, SomeoneWhoWalksAlongDoesNotCarryTheRobot) {
   EXPECT_EQ(motion.source, MotionSource::kOdometryVisual);
   EXPECT_NEAR(motion.T_previous_robot.x, 0.09, 0.003);
   EXPECT_LT(std::sqrt(motion.covariance(0, 0)), 0.5 * sigmas.x());
+}
+
+TEST_F(BothOdometries, WithoutWheelsTheSceneItselfTellsWhoWalks) {
+  options_.source = "visual";
+  const auto motion = drive({0.04, 0.0, 0.0}, {}, coarse_, View::kWalkerInRoom);
+  EXPECT_NEAR(motion.T_previous_robot.x, 0.04, 0.001);
 }
 
 TEST_F(BothOdometries, AConflictKeepsTheWheelsWithMoreDoubt) {

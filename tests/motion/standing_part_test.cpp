@@ -27,7 +27,7 @@ class StandingPart : public ::testing::Test {
     const auto read = cameraInWorld(read_m, 0.0, 1.1, 0.0, radians(12.0));
     Matrix6 covariance = Matrix6::Zero();
     covariance.diagonal() << Eigen::Vector3d::Constant(1e-4), Eigen::Vector3d::Constant(1e-5);
-    return standingPart(reference, current, before.inverse() * read, covariance);
+    return standingPart(reference, current, before.inverse() * read, covariance, 0.0);
   }
   /// Points of the person, 1.9 to 2.1 m in front of the camera that looks down by 12 degrees.
   static bool isOnPerson(const Eigen::Vector3f& p_reference) {

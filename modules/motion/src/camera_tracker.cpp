@@ -111,21 +111,55 @@ struct CameraTracker::Impl {
     return {T_key_previous * of_motion.T_reference_current, of_motion.information};
   }
 
-  /// The key frame without what moved meanwhile, as far as wheels can tell.
-  std::optional<Reference> standingPartOfKey(const RgbdPyramid& current) const {
-    if (!by_wheels || !options.use_surfaces) return std::nullopt;
-    const Matrix6 Ad = adjoint(by_wheels->T_previous_camera.inverse());
-    return standingPart(*key, current, T_key_previous * by_wheels->T_previous_camera,
-                        by_wheels->covariance + Ad * covariance_key_previous * Ad.transpose());
+  /// Brightness and surfaces of what stands still, as seen from about `T_key_camera`. Nothing where
+  /// nothing moved.
+  std::optional<Alignment> toStandingPart(const RgbdPyramid& current, const MotionPrior& prior,
+                                          const Eigen::Isometry3d& T_key_camera,
+                                          const Matrix6& covariance, double least_share) const {
+    if (!options.use_surfaces) return std::nullopt;
+    const auto standing = standingPart(*key, current, T_key_camera, covariance, least_share);
+    if (!standing) return std::nullopt;
+    auto guesses = std::vector<Eigen::Isometry3d>{};
+    if (!by_wheels) guesses.push_back(T_key_camera);
+    const Alignment alignment = align(*standing, current, prior, guesses, alignment_options);
+    return seesTheSame(alignment, options) ? std::optional(alignment) : std::nullopt;
+  }
+
+  /// Wheels tell what moved, however little.
+  std::optional<Alignment> toStandingPartByWheels(const RgbdPyramid& current,
+                                                  const MotionPrior& prior) const {
+    const Eigen::Isometry3d& T_previous_camera = by_wheels->T_previous_camera;
+    const Matrix6 Ad = adjoint(T_previous_camera.inverse());
+    const auto alignment =
+        toStandingPart(current, prior, T_key_previous * T_previous_camera,
+                       by_wheels->covariance + Ad * covariance_key_previous * Ad.transpose(), 0.0);
+    return alignment && !contradictsWheels(*alignment) ? alignment : std::nullopt;
+  }
+
+  /// Without wheels the alignment itself tells what moved, better from round to round.
+  Alignment refinedByStandingPart(const RgbdPyramid& current, const MotionPrior& prior,
+                                  Alignment alignment) const {
+    constexpr int kRounds = 3;
+    constexpr double kSettled_m = 1e-3;
+    constexpr double kLeastShare = 0.03;  // its sigmas are small, some surfaces always miss them
+    for (int round = 0; round < kRounds; ++round) {
+      const Eigen::Isometry3d T_key_camera = alignment.T_reference_current;
+      const auto again = toStandingPart(
+          current, prior, T_key_camera,
+          alignment.covariance + modelError(T_key_previous.inverse() * T_key_camera), kLeastShare);
+      if (!again) break;
+      alignment = *again;
+      const Eigen::Isometry3d change = T_key_camera.inverse() * alignment.T_reference_current;
+      if (change.translation().norm() < kSettled_m) break;
+    }
+    return alignment;
   }
 
   /// Brightness and surfaces, or surfaces alone: before bare walls, in a dark or overexposed image.
   Alignment directly(const RgbdPyramid& current, const MotionPrior& of_motion, double dt_s) {
     const MotionPrior prior = fromKey(of_motion);
-    if (const auto standing = standingPartOfKey(current)) {
-      const Alignment both = align(*standing, current, prior, {}, alignment_options);
-      if (seesTheSame(both, options) && !contradictsWheels(both)) return both;
-    }
+    if (by_wheels)
+      if (const auto alignment = toStandingPartByWheels(current, prior)) return *alignment;
     // Standing still is a second start, but wheels know better, unless they slip.
     const std::vector<Eigen::Isometry3d> still{T_key_previous};
     const auto no_other = by_wheels ? std::vector<Eigen::Isometry3d>{} : still;
@@ -133,6 +167,7 @@ struct CameraTracker::Impl {
     if (by_wheels && !seesTheSame(both, options))
       both = align(*key, current, fromKey(velocity.prior(dt_s, options)), still, alignment_options);
     const bool seen = seesTheSame(both, options);
+    if (seen && !by_wheels) return refinedByStandingPart(current, prior, both);
     const bool contradicts = seen && contradictsWheels(both);
     if ((seen && !contradicts) || !options.use_surfaces) return both;
     AlignmentOptions surfaces_only = alignment_options;

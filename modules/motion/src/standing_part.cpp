@@ -108,7 +108,7 @@ class MovingCells {
 
 std::optional<Reference> standingPart(const Reference& reference, const RgbdPyramid& current,
                                       const Eigen::Isometry3d& T_reference_current,
-                                      const Matrix6& covariance) {
+                                      const Matrix6& covariance, double least_share) {
   if (reference.pyramid.levels.empty() || current.levels.empty()) return std::nullopt;
   const Eigen::Isometry3d T_current_reference = T_reference_current.inverse();
   MovingCells cells(reference.pyramid.levels.front().camera);
@@ -118,9 +118,8 @@ std::optional<Reference> standingPart(const Reference& reference, const RgbdPyra
     cells.add(point.p_reference, patch);
     moved += patch == Patch::kMoved;
   }
-  if (!cells.anyMoves() ||
-      static_cast<double>(moved) > kMostMoving * static_cast<double>(reference.surfaces.size()))
-    return std::nullopt;
+  const double share = static_cast<double>(moved) / static_cast<double>(reference.surfaces.size());
+  if (!cells.anyMoves() || share < least_share || share > kMostMoving) return std::nullopt;
   Reference standing = reference;
   const auto moves = [&](const auto& point) { return cells.moves(point.p_reference); };
   std::erase_if(standing.surfaces, moves);

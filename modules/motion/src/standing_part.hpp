@@ -8,13 +8,13 @@
 
 namespace colonnade {
 
-/// The reference without what moved, such as people, as told by surfaces that are not where the
-/// wheels say they should be now. Nothing where nothing moved, and where so much did that it must
-/// have been the wheels.
-/// `T_reference_current`, `covariance`: the camera now by the wheels; covariance of e (metres, then
-/// radians, axes of the camera now) in T_true = T * exp(e).
+/// The reference without what moved, such as people, as told by surfaces that are not where they
+/// should be now. Nothing where nothing moved, where surfaces of less than `least_share` did, and
+/// where so many did that it must be the camera.
+/// `T_reference_current`, `covariance`: where the camera is expected now; covariance of e (metres,
+/// then radians, axes of the camera now) in T_true = T * exp(e).
 std::optional<Reference> standingPart(const Reference& reference, const RgbdPyramid& current,
                                       const Eigen::Isometry3d& T_reference_current,
-                                      const Matrix6& covariance);
+                                      const Matrix6& covariance, double least_share);
 
 }  // namespace colonnade
