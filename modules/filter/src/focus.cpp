@@ -16,8 +16,9 @@ constexpr double kNearProbability = 0.9999;
 constexpr double kFirstLook2 = 4.0 * 18.4;
 constexpr double kFarthestInverseDepth = 1e-3;
 /// What is active lies around a point ahead of the robot, by this share of its radius: the way it
-/// goes is the way it looks, and landmarks are exchanged less often.
-constexpr double kAhead = 0.7;
+/// goes is the way it looks, and landmarks are exchanged half as often. Farther ahead, what is seen
+/// behind it would rest.
+constexpr double kAhead = 0.5;
 
 /// How far the robot is from a landmark; from the nearest seen point of a floor edge.
 double distanceTo(const Block& block, const BlockVector& y, const Eigen::Vector2d& p_robot) {
