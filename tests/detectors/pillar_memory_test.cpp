@@ -86,6 +86,19 @@ TEST(PillarMemory, APartnerOfWhatIsRefusedStandsAlone) {
   EXPECT_FALSE(pair[1].partner);
 }
 
+TEST(PillarMemory, OfTooManyPlacesThoseNotSeenForLongestAreForgotten) {
+  PillarMemory memory;
+  Detections many;
+  for (int i = 0; i < 500; ++i)
+    many.push_back(edgeAt({3.0 + 0.3 * (i / 20), 0.3 * (i % 20)}, UprightHeight::kLow));
+  memory.judge(many, {}, Pose2{});
+  Detections first{edgeAt({2.0, 0.0}, UprightHeight::kLow)};
+  memory.judge(first, {}, Pose2{1.0, 0.0, 0.0});
+  show(memory, {edgeAt({1.0, -3.0}, UprightHeight::kLow)});
+  EXPECT_EQ(refusalAfter(memory, Pose2{}, {2.0, 0.0}), kReason);
+  EXPECT_EQ(refusalAfter(memory, Pose2{}, {2.0, 0.3}), "");
+}
+
 TEST(PillarMemory, WhatMovesIsNotRemembered) {
   Segmentation all_moves;
   all_moves.cell_px = 640;
@@ -148,9 +161,8 @@ TEST(PillarMemory, GoesAlongThroughAFrameWithoutCalibration) {
   const Pose2 half{0.5 * kWay_m, 0.0, 0.0};
   EXPECT_TRUE(bank.detect(between, backend->extract(between.gray), half).empty());
   const auto all = bank.detect(near, backend->extract(near.gray), half);
-  EXPECT_TRUE(std::any_of(all.begin(), all.end(), [](const Detection& d) {
-    return d.refusal == kReason;
-  }));
+  EXPECT_TRUE(
+      std::any_of(all.begin(), all.end(), [](const Detection& d) { return d.refusal == kReason; }));
 }
 
 }  // namespace
