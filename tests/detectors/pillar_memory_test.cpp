@@ -86,6 +86,39 @@ TEST(PillarMemory, APartnerOfWhatIsRefusedStandsAlone) {
   EXPECT_FALSE(pair[1].partner);
 }
 
+TEST(PillarMemory, OfTooManyPlacesThoseNotSeenForLongestAreForgotten) {
+  PillarMemory memory;
+  Detections many;
+  for (int i = 0; i < 500; ++i)
+    many.push_back(edgeAt({3.0 + 0.3 * (i / 20), 0.3 * (i % 20)}, UprightHeight::kLow));
+  memory.judge(many, {}, Pose2{});
+  Detections first{edgeAt({2.0, 0.0}, UprightHeight::kLow)};
+  memory.judge(first, {}, Pose2{1.0, 0.0, 0.0});
+  show(memory, {edgeAt({1.0, -3.0}, UprightHeight::kLow)});
+  EXPECT_EQ(refusalAfter(memory, Pose2{}, {2.0, 0.0}), kReason);
+  EXPECT_EQ(refusalAfter(memory, Pose2{}, {2.0, 0.3}), "");
+}
+
+TEST(PillarMemory, WhatMovesIsNotRemembered) {
+  Segmentation all_moves;
+  all_moves.cell_px = 640;
+  all_moves.columns = all_moves.rows = 1;
+  all_moves.labels = {Segmentation::kMoving};
+  PillarMemory memory;
+  Detections seen{edgeAt({3.0, 0.5}, UprightHeight::kLow)};
+  memory.judge(seen, all_moves, Pose2{});
+  EXPECT_EQ(refusalAfter(memory, Pose2{}, {3.0, 0.5}), "");
+}
+
+TEST(PillarMemory, WhatChangedIsBelievedAfterHalfAsManySights) {
+  // However often it was low: counts are halved, so that tall sights catch up.
+  PillarMemory memory;
+  for (int i = 0; i < 200; ++i) show(memory, {edgeAt({3.0, 0.5}, UprightHeight::kLow)});
+  EXPECT_EQ(refusalAfter(memory, Pose2{}, {3.0, 0.5}), kReason);
+  for (int i = 0; i < 20; ++i) show(memory, {edgeAt({3.0, 0.5}, UprightHeight::kTall)});
+  EXPECT_EQ(refusalAfter(memory, Pose2{}, {3.0, 0.5}), "");
+}
+
 /// A wall, a pillar before it and a cabinet, 1.25 m tall, from a robot that has driven so far.
 Frame roomFrom(double x_m) {
   Scene scene{{{{4.5 - x_m, -5.0}, {4.5 - x_m, 5.0}, 150.0},
@@ -114,6 +147,22 @@ TEST(PillarMemory, ACabinetWhoseTopHasLeftThePictureIsRefusedAndAPillarIsNot) {
   EXPECT_EQ(columns(all, 0.1, 3.0 - kWay_m), 0);
   EXPECT_EQ(columns(all, 0.6, 3.0 - kWay_m), 0);
   EXPECT_GT(columns(all, -0.5, 3.2 - kWay_m), 0);
+}
+
+TEST(PillarMemory, GoesAlongThroughAFrameWithoutCalibration) {
+  const auto backend = makeEdgeLineBackend(kDefaultBackend, {});
+  constexpr double kWay_m = 1.75;
+  const Frame far = roomFrom(0.0), near = roomFrom(kWay_m);
+  Frame between = roomFrom(0.5 * kWay_m);
+  between.camera.fx_px = 0.0;
+  ASSERT_FALSE(between.camera.isCalibrated());
+  DetectorBank bank;
+  bank.detect(far, backend->extract(far.gray), Pose2{});
+  const Pose2 half{0.5 * kWay_m, 0.0, 0.0};
+  EXPECT_TRUE(bank.detect(between, backend->extract(between.gray), half).empty());
+  const auto all = bank.detect(near, backend->extract(near.gray), half);
+  EXPECT_TRUE(
+      std::any_of(all.begin(), all.end(), [](const Detection& d) { return d.refusal == kReason; }));
 }
 
 }  // namespace

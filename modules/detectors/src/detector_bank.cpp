@@ -34,7 +34,10 @@ Detections DetectorBank::detect(const Frame& frame, const EdgeLines& edges,
   profile_ = {};
   check_ = checkFrame(frame, edges);
   segmentation_ = segmenter_.segment(frame, T_previous_robot);
-  if (!frame.camera.isCalibrated()) return all;
+  if (!frame.camera.isCalibrated()) {
+    memory_.judge(all, segmentation_, T_previous_robot);  // the robot has moved on all the same
+    return all;
+  }
   if (check_.image_usable) {
     const RefinedLines lines = refineLines(frame.gray, edges, options_.lines);
     if (lines.empty()) check_.lacking.emplace_back("the image shows no straight edge");

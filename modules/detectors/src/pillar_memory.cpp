@@ -84,7 +84,10 @@ void PillarMemory::judge(Detections& detections, const Segmentation& segmentatio
   for (const Sight& sight : sights) {
     Place* place = nearest(sight.p_robot);
     if (!place) {
-      if (places_.size() >= kMostPlaces) places_.erase(places_.begin());
+      if (places_.size() >= kMostPlaces)
+        places_.erase(
+            std::max_element(places_.begin(), places_.end(),
+                             [](const Place& a, const Place& b) { return a.way_m < b.way_m; }));
       place = &places_.emplace_back();
     }
     place->p_robot = sight.p_robot;

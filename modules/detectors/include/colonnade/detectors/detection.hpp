@@ -40,7 +40,7 @@ struct Detection {
   std::optional<std::size_t> partner;
   double width_m = 0.0;  ///< pillars whose two edges have range, otherwise 0
   /// Pillar edges: from the camera, horizontal, also where it is too doubtful for a measurement; 0
-  /// where it is not known.
+  /// where it is not known, or the edge was refused before it mattered.
   double range_m = 0.0;
   UprightHeight height = UprightHeight::kUnknown;  ///< of pillar edges with a range
   /// Accepted pillar edges: a line of paint, a joint or a gap with the same surface on both sides.
