@@ -53,6 +53,11 @@ TEST_F(StandingPart, IsNotAskedForWhereNothingMoves) {
   EXPECT_FALSE(standing(Eigen::Vector3d::Zero(), 0.103));
 }
 
+TEST_F(StandingPart, IsNotAskedForWhereAWallSeemsToMove) {
+  // The wheels have slipped: a wall and a person ahead are not where they should be.
+  for (const double read_m : {0.25, 0.3}) EXPECT_FALSE(standing(Eigen::Vector3d::Zero(), read_m));
+}
+
 TEST_F(StandingPart, LeavesAloneWhatMovesNoMoreThanWheelsErr) {
   EXPECT_FALSE(standing({0.01, 0.0, 0.0}, 0.103));
 }

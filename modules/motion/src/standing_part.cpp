@@ -17,6 +17,7 @@ constexpr int kMinPatches = 2;
 constexpr double kMinShare = 1.0 / 3.0;  ///< of a cell's patches, to call it moving
 constexpr float kBody_m = 0.35f;         ///< what is so near to it moves with it
 constexpr double kMostMoving = 0.5;      ///< of all patches
+constexpr double kWidestPerson_m = 1.5;  ///< or two; what is wider is a wall
 
 enum class Patch { kUnknown, kStands, kMoved };
 
@@ -55,8 +56,18 @@ class MovingCells {
     cell->farthest_m = std::max(cell->farthest_m, p.z());
   }
 
-  bool anyMoves() const {
-    return std::any_of(cells_.begin(), cells_.end(), [](const Cell& cell) { return cell.moves(); });
+  /// The widest row of cells that move beside each other; 0 where nothing moves.
+  double widestMoving_m() const {
+    double widest_m = 0.0;
+    for (int row = 0; row < rows(); ++row) {
+      double width_m = 0.0;
+      for (int column = 0; column < columns(); ++column) {
+        const Cell* cell = at(column, row);
+        width_m = cell->moves() ? width_m + widthAt(cell->nearest_m) : 0.0;
+        widest_m = std::max(widest_m, width_m);
+      }
+    }
+    return widest_m;
   }
 
   /// Whether the point is part of what moves in its cell or one beside it.
@@ -80,6 +91,9 @@ class MovingCells {
     bool moves() const { return moved >= kMinPatches && moved >= kMinShare * patches; }
   };
 
+  double widthAt(float depth_m) const {
+    return cell_px_ * static_cast<double>(depth_m) / camera_.fx_px;
+  }
   int columns() const { return camera_.width_px / cell_px_ + 1; }
   int rows() const { return camera_.height_px / cell_px_ + 1; }
   std::size_t size() const { return static_cast<std::size_t>(columns() * rows()); }
@@ -119,7 +133,9 @@ std::optional<Reference> standingPart(const Reference& reference, const RgbdPyra
     moved += patch == Patch::kMoved;
   }
   const double share = static_cast<double>(moved) / static_cast<double>(reference.surfaces.size());
-  if (!cells.anyMoves() || share < least_share || share > kMostMoving) return std::nullopt;
+  const double width_m = cells.widestMoving_m();
+  if (width_m == 0.0 || width_m > kWidestPerson_m) return std::nullopt;
+  if (share < least_share || share > kMostMoving) return std::nullopt;
   Reference standing = reference;
   const auto moves = [&](const auto& point) { return cells.moves(point.p_reference); };
   std::erase_if(standing.surfaces, moves);

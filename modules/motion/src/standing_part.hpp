@@ -10,7 +10,7 @@ namespace colonnade {
 
 /// The reference without what moved, such as people, as told by surfaces that are not where they
 /// should be now. Nothing where nothing moved, where surfaces of less than `least_share` did, and
-/// where so many did that it must be the camera.
+/// where so many did, or something so wide, that it must be the camera.
 /// `T_reference_current`, `covariance`: where the camera is expected now; covariance of e (metres,
 /// then radians, axes of the camera now) in T_true = T * exp(e).
 std::optional<Reference> standingPart(const Reference& reference, const RgbdPyramid& current,
