@@ -220,8 +220,8 @@ bool isElsewhere(const DepthView& depth, const RefinedLine& line, double range_m
 
 /// What continues a line, in the order of their upper ends.
 RefinedLines piecesOf(const UprightEdge& edge, const RefinedLines& lines) {
-  const auto& [gray, depth, reach_m, camera, line, range_m, one_sided, may_fade, options,
-               contrast] = edge;
+  const RefinedLine& line = edge.line;
+  const auto& range_m = edge.range_m;
   constexpr double kAside_px = 2.5;
   constexpr double kBelowFloor_m = 0.15;
   RefinedLines pieces;
@@ -229,11 +229,11 @@ RefinedLines piecesOf(const UprightEdge& edge, const RefinedLines& lines) {
     if (!other.steep || other.gradient_sign != line.gradient_sign) continue;
     const auto apart = [&](double s) { return std::abs(other.across(s) - line.across(s)); };
     if (std::max(apart(other.begin), apart(other.end)) > kAside_px) continue;
-    const Eigen::Vector3d lowest = camera.ray(line.at(other.end));
+    const Eigen::Vector3d lowest = edge.camera.ray(line.at(other.end));
     if (range_m &&
-        camera.height() + *range_m * lowest.z() / lowest.head<2>().norm() < -kBelowFloor_m)
+        edge.camera.height() + *range_m * lowest.z() / lowest.head<2>().norm() < -kBelowFloor_m)
       continue;
-    if (range_m && isElsewhere(depth, other, *range_m)) continue;
+    if (range_m && isElsewhere(edge.depth, other, *range_m)) continue;
     pieces.push_back(other);
   }
   std::sort(pieces.begin(), pieces.end(),
