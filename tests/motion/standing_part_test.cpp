@@ -62,5 +62,26 @@ TEST_F(StandingPart, LeavesAloneWhatMovesNoMoreThanWheelsErr) {
   EXPECT_FALSE(standing({0.01, 0.0, 0.0}, 0.103));
 }
 
+TEST(PlaneDistance, HasTheNumericDerivative) {
+  const Eigen::Isometry3d T_reference_camera =
+      expSe3((Vector6() << 0.1, -0.2, 0.05, 0.1, -0.3, 0.2).finished());
+  const Eigen::Vector3d n_reference = Eigen::Vector3d(0.3, -0.2, -0.9).normalized();
+  const Eigen::Vector3d p_reference(0.4, -0.3, 2.0);
+  const auto inCamera = [&](const Vector6& e) {
+    return Eigen::Isometry3d((T_reference_camera * expSe3(e)).inverse());
+  };
+  const Eigen::Vector3d seen = inCamera(Vector6::Zero()) * p_reference;
+  const auto distance = [&](const Vector6& e) {
+    const Eigen::Isometry3d T = inCamera(e);
+    return (T.linear() * n_reference).dot(T * p_reference - seen);
+  };
+  const Vector6 J = planeDistanceByCamera(inCamera(Vector6::Zero()).linear() * n_reference, seen);
+  constexpr double kStep = 1e-6;
+  for (int i = 0; i < 6; ++i) {
+    const Vector6 e = kStep * Vector6::Unit(i);
+    EXPECT_NEAR(J(i), (distance(e) - distance(-e)) / (2.0 * kStep), 1e-7);
+  }
+}
+
 }  // namespace
 }  // namespace colonnade

@@ -34,8 +34,7 @@ Patch judge(const SurfacePoint& point, const PyramidLevel& current,
   if (depth <= 0.0 || depth < q.z() - kBefore_m) return Patch::kUnknown;
   const Eigen::Vector3d n = T_current_reference.linear() * point.normal.cast<double>();
   const double r = n.dot(q - camera.ray(u, v) * depth);
-  Vector6 J;  // of r by e
-  J << n, q.cross(n);
+  const Vector6 J = planeDistanceByCamera(n, q);
   const double variance = J.dot(covariance * J) + 1.0 / static_cast<double>(point.inverse_variance);
   return r * r > kSigmas * kSigmas * variance ? Patch::kMoved : Patch::kStands;
 }
@@ -119,6 +118,12 @@ class MovingCells {
 };
 
 }  // namespace
+
+Vector6 planeDistanceByCamera(const Eigen::Vector3d& n, const Eigen::Vector3d& q) {
+  Vector6 J;
+  J << -n, -q.cross(n);
+  return J;
+}
 
 std::optional<Reference> standingPart(const Reference& reference, const RgbdPyramid& current,
                                       const Eigen::Isometry3d& T_reference_current,

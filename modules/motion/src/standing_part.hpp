@@ -17,4 +17,8 @@ std::optional<Reference> standingPart(const Reference& reference, const RgbdPyra
                                       const Eigen::Isometry3d& T_reference_current,
                                       const Matrix6& covariance, double least_share);
 
+/// Derivative by e of how far a patch of the reference lies from the plane seen there now: n its
+/// normal, q its place, both in the axes of the camera now, q on that plane.
+Vector6 planeDistanceByCamera(const Eigen::Vector3d& n, const Eigen::Vector3d& q);
+
 }  // namespace colonnade
