@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstring>
 #include <limits>
 
 #include "colonnade/base/vector_kernel.hpp"
 #include "colonnade/detectors/depth_noise.hpp"
+#include "lanes.hpp"
 
 namespace colonnade {
 namespace {
@@ -24,20 +24,13 @@ using HalfInts = std::int32_t __attribute__((vector_size(4 * kHalf)));
 using Doubles = double __attribute__((vector_size(8 * kHalf)));
 using Longs = std::int64_t __attribute__((vector_size(8 * kHalf)));
 
-template <class Lanes, class Number>
-inline __attribute__((always_inline)) void load(Lanes& lanes, const Number* from) {
-  std::memcpy(&lanes, from, sizeof lanes);
-}
-template <class Lanes, class Number>
-inline __attribute__((always_inline)) void store(const Lanes& lanes, Number* to) {
-  std::memcpy(to, &lanes, sizeof lanes);
-}
 inline __attribute__((always_inline)) void loadAsDoubles(Doubles& lanes, const float* from) {
   HalfFloats floats;
   load(floats, from);
   lanes = __builtin_convertvector(floats, Doubles);
 }
 inline __attribute__((always_inline)) bool anyOf(const Ints& mask) {
+  static_assert(kColumnsTogether == 8);
   std::int64_t words[kColumnsTogether / 2];
   store(mask, words);
   return (words[0] | words[1] | words[2] | words[3]) != 0;

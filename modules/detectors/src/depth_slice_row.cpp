@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstring>
 
 #include "colonnade/base/vector_kernel.hpp"
 #include "depth_column.hpp"
+#include "lanes.hpp"
 
 namespace colonnade {
 
@@ -44,18 +44,13 @@ using Ints = std::int32_t __attribute__((vector_size(4 * kLanes)));
 using Doubles = double __attribute__((vector_size(8 * kLanes)));
 using Longs = std::int64_t __attribute__((vector_size(8 * kLanes)));
 
-template <class Lanes, class Number>
-inline __attribute__((always_inline)) void store(const Lanes& lanes, Number* to) {
-  std::memcpy(to, &lanes, sizeof lanes);
-}
-
 /// The pixels u to u + 3. All conditions stay masks as wide as the numbers they come from.
 inline __attribute__((always_inline)) void placeFour(const float* depths, int u, const RayRow& rays,
                                                      const SliceGrid& grid, double per_band,
                                                      const SlicePlaces& places) {
   constexpr double kLeastAhead = 0.1;
   Floats floats;
-  std::memcpy(&floats, depths, sizeof floats);
+  load(floats, depths);
   const Doubles depth = __builtin_convertvector(floats, Doubles);
   const Doubles at = static_cast<double>(u) + Doubles{0.0, 1.0, 2.0, 3.0};
   const double low = grid.min_height_m;

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 
 #include "colonnade/base/vector_kernel.hpp"
+#include "lanes.hpp"
 
 namespace colonnade {
 namespace {
@@ -16,9 +16,6 @@ namespace {
 using Lanes = double __attribute__((vector_size(32)));
 constexpr std::size_t kLanes = 4;
 
-inline __attribute__((always_inline)) void load(Lanes& lanes, const double* from) {
-  std::memcpy(&lanes, from, sizeof lanes);
-}
 inline __attribute__((always_inline)) double total(const Lanes& lanes) {
   return (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]);
 }
@@ -91,29 +88,32 @@ double squaresAbout(const Straight& line, const double* s, const double* across,
   return squares;
 }
 
+/// How many are nearer to the line than `reach`, or, kClosed, not farther.
+template <bool kClosed>
+inline __attribute__((always_inline)) std::int64_t countNear(const Straight& line, double reach,
+                                                             const double* s, const double* across,
+                                                             std::size_t count) {
+  const Straight l = line;
+  std::int64_t near = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double off = across[i] - (l.offset + l.slope * (s[i] - l.middle));
+    const bool is_near =
+        kClosed ? (off <= reach) & (off >= -reach) : (off < reach) & (off > -reach);
+    near += is_near ? 1 : 0;
+  }
+  return near;
+}
+
 COLONNADE_VECTOR_KERNEL
 int countBlock(const Straight& line, double reach, const double* s, const double* across,
                std::size_t count) {
-  const Straight l = line;
-  std::int64_t within = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double off = across[i] - (l.offset + l.slope * (s[i] - l.middle));
-    within += (off < reach) & (off > -reach) ? 1 : 0;
-  }
-  return static_cast<int>(within);
+  return static_cast<int>(countNear<false>(line, reach, s, across, count));
 }
 
-/// None is farther from the line.
 COLONNADE_VECTOR_KERNEL
 bool areWithin(const Straight& line, double reach, const double* s, const double* across,
                std::size_t count) {
-  const Straight l = line;
-  std::int64_t within = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double off = across[i] - (l.offset + l.slope * (s[i] - l.middle));
-    within += (off <= reach) & (off >= -reach) ? 1 : 0;
-  }
-  return within == static_cast<std::int64_t>(count);
+  return countNear<true>(line, reach, s, across, count) == static_cast<std::int64_t>(count);
 }
 
 }  // namespace

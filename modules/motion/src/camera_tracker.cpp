@@ -119,9 +119,10 @@ struct CameraTracker::Impl {
     if (!options.use_surfaces) return std::nullopt;
     const auto standing = standingPart(*key, current, T_key_camera, covariance, least_share);
     if (!standing) return std::nullopt;
-    auto guesses = std::vector<Eigen::Isometry3d>{};
-    if (!by_wheels) guesses.push_back(T_key_camera);
-    const Alignment alignment = align(*standing, current, prior, guesses, alignment_options);
+    // The wheels' place is the prior's, where an alignment starts anyhow.
+    const auto other_guesses =
+        by_wheels ? std::vector<Eigen::Isometry3d>{} : std::vector{T_key_camera};
+    const Alignment alignment = align(*standing, current, prior, other_guesses, alignment_options);
     return seesTheSame(alignment, options) ? std::optional(alignment) : std::nullopt;
   }
 
