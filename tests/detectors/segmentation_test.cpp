@@ -24,7 +24,7 @@ Scene room() {
 
 /// The room seen from where the robot is, with a person as wide as a trunk at p (world).
 Frame seenFrom(const Pose2& T_world_robot, const std::optional<Eigen::Vector2d>& p_person,
-               std::size_t index) {
+               std::size_t index, double step_s = 0.1) {
   Scene scene = room();
   if (p_person) {
     const Eigen::Vector2d half(0.0, 0.22);
@@ -39,7 +39,7 @@ Frame seenFrom(const Pose2& T_world_robot, const std::optional<Eigen::Vector2d>&
       withNoise(render(scene, {1.0, radians(8.0), 0.0, 0.0, {0.0, 0.0}}, kWidth_px, kHeight_px),
                 2.0, static_cast<std::uint32_t>(index + 1));
   frame.index = index;
-  frame.stamp_s = 0.1 * static_cast<double>(index);
+  frame.stamp_s = step_s * static_cast<double>(index);
   return frame;
 }
 
@@ -68,6 +68,7 @@ Called called(const Frame& frame, const Segmentation& segmentation, double perso
 }
 
 struct Drive {
+  double step_s = 0.1;
   Pose2 T_world_robot;
   Segmenter segmenter;
   DetectorBank bank;
@@ -77,7 +78,7 @@ struct Drive {
 
   void step(const Pose2& increment, const std::optional<Eigen::Vector2d>& p_person) {
     T_world_robot = T_world_robot * increment;
-    frame = seenFrom(T_world_robot, p_person, index++);
+    frame = seenFrom(T_world_robot, p_person, index++, step_s);
     segmentation = segmenter.segment(frame, index > 1 ? std::optional(increment) : std::nullopt);
   }
 };
@@ -116,6 +117,31 @@ TEST(Segmentation, FindsAPersonWhoComesAndOneWhoGoes) {
     const Called share = called(drive.frame, drive.segmentation, depth_m);
     EXPECT_GT(share.person, 0.6) << "speed " << speed;
     EXPECT_LT(share.rest, 0.08) << "speed " << speed;
+  }
+}
+
+TEST(Segmentation, KeepsWhatAPersonUncoversAtTwoFramesASecond) {
+  Drive drive;
+  drive.step_s = 0.5;
+  for (int i = 0; i < 8; ++i) {
+    drive.step({0.05, 0.0, 0.0}, Eigen::Vector2d(2.6, -1.0 + 0.35 * i));
+    if (i < 4) continue;  // the first views are judged by too few
+    const Called share = called(drive.frame, drive.segmentation, 2.6 - 0.05 * (i + 1));
+    EXPECT_GT(share.person, 0.85) << "frame " << i;
+    EXPECT_LT(share.rest, 0.03) << "frame " << i;
+  }
+}
+
+TEST(Segmentation, FindsAPersonWhoGoesAtTwoFramesASecond) {
+  for (const double side_m : {-0.3, 0.4}) {
+    Drive drive;
+    drive.step_s = 0.5;
+    for (int i = 0; i < 5; ++i) {
+      drive.step({0.0, 0.0, 0.0}, Eigen::Vector2d(1.6 + 0.45 * i, side_m));
+      if (i < 2) continue;
+      const Called share = called(drive.frame, drive.segmentation, 1.6 + 0.45 * i);
+      EXPECT_GT(share.person, 0.45) << "frame " << i << " at the side of " << side_m;
+    }
   }
 }
 
@@ -166,6 +192,39 @@ TEST(Segmentation, TakesAWrongMotionForWhatItIs) {
   frame.stamp_s += 0.1;
   const Segmentation after = drive.segmenter.segment(frame, Pose2{-1.0, 0.0, 0.0});
   EXPECT_EQ(after.count(Segmentation::kMoving), 0U);
+}
+
+TEST(Segmentation, KeepsAnEdgeBesideSomebodyNearer) {
+  const Frame frame = seenFrom({}, std::nullopt, 0);
+  Segmentation segmentation;
+  segmentation.cell_px = 4;
+  segmentation.columns = kWidth_px / 4;
+  segmentation.rows = kHeight_px / 4;
+  const std::size_t count = static_cast<std::size_t>(segmentation.columns * segmentation.rows);
+  segmentation.labels.assign(count, Segmentation::kStatic);
+  segmentation.near_m.assign(count, 4.5F);
+  for (int row = 0; row < segmentation.rows; ++row)
+    for (int column = 40; column < 50; ++column) {
+      const auto cell = static_cast<std::size_t>(row * segmentation.columns + column);
+      segmentation.labels[cell] = Segmentation::kMoving;
+      segmentation.near_m[cell] = 2.0F;
+    }
+  const auto edge = [](double u, double range_m) {
+    Detection detection;
+    detection.measurement.kind = LandmarkKind::kPillarEdge;
+    const Eigen::Index size = range_m > 0.0 ? 2 : 1;
+    detection.measurement.z = Eigen::VectorXd::Zero(size);
+    if (range_m > 0.0) detection.measurement.z[1] = range_m;
+    detection.measurement.R = Eigen::MatrixXd::Identity(size, size);
+    detection.a_px = {u, 25.0};
+    detection.b_px = {u, 125.0};
+    return detection;
+  };
+  // The mover begins at column 160.
+  Detections detections{edge(155.0, 4.5), edge(155.0, 2.0), edge(155.0, 0.0), edge(165.0, 4.5)};
+  refuseSegmented(frame, segmentation, {}, detections);
+  EXPECT_EQ(detections[0].refusal, "");
+  for (const std::size_t i : {1U, 2U, 3U}) EXPECT_EQ(detections[i].refusal, "moving") << i;
 }
 
 TEST(Segmentation, FindsAPaneAndNotAWayOut) {

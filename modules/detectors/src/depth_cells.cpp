@@ -115,6 +115,16 @@ void findNearestAround(DepthCells& cells) {
 
 }  // namespace
 
+std::optional<std::size_t> DepthCells::cellOf(const Eigen::Vector3d& p_camera) const {
+  if (p_camera.z() < static_cast<double>(kNearest_m)) return std::nullopt;
+  const double u = camera.cx_px + camera.fx_px * p_camera.x() / p_camera.z();
+  const double v = camera.cy_px + camera.fy_px * p_camera.y() / p_camera.z();
+  if (!(u > -0.5 && v > -0.5)) return std::nullopt;
+  const double column = (u + 0.5) / cell_px, row = (v + 0.5) / cell_px;
+  if (!(column < columns && row < rows)) return std::nullopt;
+  return index(static_cast<int>(column), static_cast<int>(row));
+}
+
 DepthCells makeDepthCells(const Frame& frame) {
   DepthCells cells;
   const cv::Mat& depth_m = frame.depth_m;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "colonnade/frames/frame.hpp"
@@ -28,6 +29,8 @@ struct DepthCells {
   bool contains(int column, int row) const {
     return column >= 0 && row >= 0 && column < columns && row < rows;
   }
+  /// In which a point of the camera's axes is seen; nothing behind it or beside the image.
+  std::optional<std::size_t> cellOf(const Eigen::Vector3d& p_camera) const;
   /// The viewing ray of a cell's middle, z = 1.
   Eigen::Vector3d ray(int column, int row) const {
     const double half = 0.5 * (cell_px - 1);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <deque>
 
+#include "background.hpp"
 #include "cell_regions.hpp"
 #include "colonnade/base/vector_kernel.hpp"
 
@@ -100,7 +101,7 @@ double areaOf(const DepthCells& cells, const std::vector<std::size_t>& region) {
 
 }  // namespace
 
-bool markMoving(const DepthGlimpse& now, const DepthGlimpse& former,
+bool markMoving(const DepthGlimpse& now, const DepthGlimpse& former, Background& background,
                 const SegmentationOptions& options, std::vector<std::uint8_t>& marks) {
   std::vector<std::uint8_t> found(marks.size(), 0);
   std::size_t through = 0;
@@ -109,11 +110,14 @@ bool markMoving(const DepthGlimpse& now, const DepthGlimpse& former,
         found[cell] = 1;
         ++through;
       });
-  // A surface that is gone: what stands a little behind its place may be the same thing now.
+  // A surface that is gone: what stands a little behind its place may be the same thing now, or
+  // the room that it no longer hides.
   const double way_m = options.max_speed_m_s * (now.stamp_s - former.stamp_s);
   eachThrough(former, now, options, [&](std::size_t, std::size_t there, double depth_m) {
     const float z = now.cells.near_m[there];
-    if (z != DepthCells::kNone && static_cast<double>(z) < depth_m + way_m) found[there] = 1;
+    if (z == DepthCells::kNone || static_cast<double>(z) >= depth_m + way_m || found[there]) return;
+    const double nearer_m = static_cast<double>(z) - depth_m;
+    if (!background.isUncovered(there, former, nearer_m)) found[there] = 1;
   });
   if (static_cast<double>(through) > options.max_moving_share * static_cast<double>(compared))
     return false;
@@ -121,8 +125,8 @@ bool markMoving(const DepthGlimpse& now, const DepthGlimpse& former,
   return true;
 }
 
-void completeMoving(const DepthGlimpse& now, const Frame& frame, const SegmentationOptions& options,
-                    std::vector<std::uint8_t>& marks) {
+void completeMoving(const DepthGlimpse& now, const Frame& frame, Background& background,
+                    const SegmentationOptions& options, std::vector<std::uint8_t>& marks) {
   if (std::find(marks.begin(), marks.end(), 1) == marks.end()) return;
   const DepthCells& cells = now.cells;
   struct Front {
@@ -162,6 +166,7 @@ void completeMoving(const DepthGlimpse& now, const Frame& frame, const Segmentat
       const double next_left = front.left_m - step_m;
       if (next_z == DepthCells::kNone || next_left <= left[next] || next_left < 0.0) continue;
       if (std::abs(next_z - z) > kSurfaceStep_m || !aboveFloor(c, r, next_z)) continue;
+      if (background.isStanding(next)) continue;
       left[next] = next_left;
       marks[next] = 1;
       fronts.push_back({next, next_left});

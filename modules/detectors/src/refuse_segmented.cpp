@@ -12,14 +12,15 @@ namespace {
 constexpr int kPlaces = 24;  ///< looked at along a detection
 constexpr double kBehind_m = 0.35;
 
-/// A moving thing hides or makes the detection at this place; one well behind it does neither.
+/// A moving thing hides or makes the detection at this place, on its line or beside it; one well
+/// behind it does neither, nor does one well before it that is beside the line.
 bool isMovingAt(const Segmentation& segmentation, const LevelledCamera& camera,
-                const Eigen::Vector2d& p_px, const Measurement& m) {
+                const Eigen::Vector2d& p_px, bool on_line, const Measurement& m) {
   if (segmentation.at(p_px) != Segmentation::kMoving) return false;
   if (!m.hasRange() || m.kind == LandmarkKind::kFloorEdge) return true;
   const double range_m =
       static_cast<double>(segmentation.nearestAt(p_px)) * camera.ray(p_px).head<2>().norm();
-  return range_m < m.z[1] + kBehind_m;
+  return range_m < m.z[1] + kBehind_m && (on_line || range_m > m.z[1] - kBehind_m);
 }
 
 struct Shares {
@@ -41,9 +42,10 @@ Shares sharesOf(const Detection& detection, const LevelledCamera& camera,
     ++inside;
     bool moving = false;
     bool reflective = true;
-    for (const Eigen::Vector2d& beside :
-         {Eigen::Vector2d(p - aside), p, Eigen::Vector2d(p + aside)}) {
-      moving = moving || isMovingAt(segmentation, camera, beside, detection.measurement);
+    for (const double side : {-1.0, 0.0, 1.0}) {
+      const Eigen::Vector2d beside = p + side * aside;
+      moving =
+          moving || isMovingAt(segmentation, camera, beside, side == 0.0, detection.measurement);
       reflective = reflective && segmentation.at(beside) == Segmentation::kReflective;
     }
     shares.moving += moving ? 1.0 : 0.0;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <deque>
 
+#include "background.hpp"
 #include "depth_cells.hpp"
 #include "moving_cells.hpp"
 #include "reflective_cells.hpp"
@@ -37,6 +38,7 @@ std::size_t Segmentation::count(Label label) const {
 struct Segmenter::Impl {
   SegmentationOptions options;
   std::deque<DepthGlimpse> views;  ///< oldest first
+  std::deque<DepthGlimpse> older;  ///< than those, and less frequent
   Pose2 T_world_robot;             ///< in a world of its own
 
   /// The youngest view that is at least so old, up to twice that and some.
@@ -49,26 +51,42 @@ struct Segmenter::Impl {
     return nullptr;
   }
 
+  /// Empty where it cannot be told.
   std::vector<std::uint8_t> moving(const DepthGlimpse& now, const Frame& frame) {
     std::vector<std::uint8_t> marks(now.cells.near_m.size(), 0);
+    std::vector<const DepthGlimpse*> all;
+    for (const auto* list : {&older, &views})
+      for (const DepthGlimpse& view : *list) all.push_back(&view);
+    Background background(now, std::move(all), options);
     const DepthGlimpse* last = nullptr;
     for (const double age_s : {options.short_history_s, options.long_history_s}) {
       const DepthGlimpse* const former = viewOfAge(age_s, now.stamp_s);
       if (!former || former == last) continue;
       last = former;
-      if (!markMoving(now, *former, options, marks)) {
-        views.clear();
-        return std::vector<std::uint8_t>(marks.size(), 0);
+      if (!markMoving(now, *former, background, options, marks)) {
+        forget();
+        return {};
       }
     }
-    completeMoving(now, frame, options, marks);
+    if (!last) return {};
+    completeMoving(now, frame, background, options, marks);
     return marks;
+  }
+
+  void forget() {
+    views.clear();
+    older.clear();
   }
 
   void remember(DepthGlimpse&& now) {
     const double oldest_s = now.stamp_s - options.long_history_s - 0.02;
     // One view older than the longest history stays: it is the one of that age.
-    while (views.size() > 1 && views[1].stamp_s <= oldest_s) views.pop_front();
+    while (views.size() > 1 && views[1].stamp_s <= oldest_s) {
+      if (older.empty() || views[0].stamp_s >= older.back().stamp_s + options.short_history_s)
+        older.push_back(std::move(views[0]));
+      views.pop_front();
+    }
+    while (!older.empty() && older[0].stamp_s < now.stamp_s - options.memory_s) older.pop_front();
     views.push_back(std::move(now));
   }
 };
@@ -81,13 +99,14 @@ Segmenter::Segmenter(Segmenter&&) noexcept = default;
 Segmenter& Segmenter::operator=(Segmenter&&) noexcept = default;
 
 Segmentation Segmenter::segment(const Frame& frame, const std::optional<Pose2>& T_previous_robot) {
-  auto& [options, views, T_world_robot] = *impl_;
-  if (!T_previous_robot || (!views.empty() && frame.stamp_s <= views.back().stamp_s)) views.clear();
+  auto& [options, views, older, T_world_robot] = *impl_;
+  if (!T_previous_robot || (!views.empty() && frame.stamp_s <= views.back().stamp_s))
+    impl_->forget();
   if (T_previous_robot) T_world_robot = T_world_robot * *T_previous_robot;
   Segmentation result;
   if (!(options.moving || options.reflective) || !frame.camera.isCalibrated()) return result;
-  DepthGlimpse now{frame.stamp_s, T_world_robot.toIsometry3() * frame.T_robot_camera,
-                   makeDepthCells(frame)};
+  DepthGlimpse now{
+      frame.stamp_s, T_world_robot.toIsometry3() * frame.T_robot_camera, makeDepthCells(frame), {}};
   if (now.cells.empty()) return result;
   result.cell_px = now.cells.cell_px;
   result.columns = now.cells.columns;
@@ -100,9 +119,9 @@ Segmentation Segmenter::segment(const Frame& frame, const std::optional<Pose2>& 
       if (marks[i]) result.labels[i] = Segmentation::kReflective;
   }
   if (options.moving) {
-    const auto marks = impl_->moving(now, frame);
-    for (std::size_t i = 0; i < marks.size(); ++i)
-      if (marks[i]) result.labels[i] = Segmentation::kMoving;
+    now.moving = impl_->moving(now, frame);
+    for (std::size_t i = 0; i < now.moving.size(); ++i)
+      if (now.moving[i]) result.labels[i] = Segmentation::kMoving;
     impl_->remember(std::move(now));
   }
   return result;

@@ -21,6 +21,7 @@ struct SegmentationOptions {
   bool reflective = true;
   double short_history_s = 0.3;      ///< age of the former view for what is quick
   double long_history_s = 0.9;       ///< and for what is slow
+  double memory_s = 3.0;             ///< age of views that tell what stood behind who moved on
   double tolerance_m = 0.10;         ///< of depth between two views
   double tolerance_per_m2 = 0.012;   ///< grows with squared depth, as stereo noise does
   double min_moving_area_m2 = 0.03;  ///< smaller changes are noise at outlines
@@ -39,6 +40,7 @@ struct SegmentationOptions {
     v.flag("reflective", reflective, "refuse what is seen in panes and mirrors");
     v.number("short_history_s", short_history_s, {0.01, 5}, "age of the former view, quick things");
     v.number("long_history_s", long_history_s, {0.01, 10}, "age of the former view, slow things");
+    v.number("memory_s", memory_s, {0, 60}, "age of views that tell what somebody hid");
     v.number("tolerance_m", tolerance_m, {0.01, 1}, "of depth between two views");
     v.number("tolerance_per_m2", tolerance_per_m2, {0, 0.2}, "added, times the squared depth");
     v.number("min_moving_area_m2", min_moving_area_m2, {0, 1}, "smaller changes are noise");

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "colonnade/detectors/segmentation.hpp"
+#include "moving_cells.hpp"
+
+namespace colonnade {
+
+/// Which surfaces of a view are parts of the room that somebody hid a moment ago, and not the
+/// somebody: what a view saw at its place before, what goes on straight from there, and what is
+/// wider than a person.
+class Background {
+ public:
+  /// `now` and `views` must outlive this.
+  Background(const DepthGlimpse& now, std::vector<const DepthGlimpse*> views,
+             const SegmentationOptions& options);
+
+  /// Whether a cell of `now` cannot show what `former` saw `nearer_m` before it.
+  bool isUncovered(std::size_t cell, const DepthGlimpse& former, double nearer_m);
+  /// Whether a cell of `now` shows a part of the room, whoever passes.
+  bool isStanding(std::size_t cell) { return isWall(cell) || isKnown(cell); }
+
+ private:
+  enum class Known : std::uint8_t { kNotAsked, kNo, kYes };
+
+  bool isKnown(std::size_t cell);
+  bool isWall(std::size_t cell);
+  void findWalls(int row);
+  /// Where a view saw the surface of a cell at its place; nothing where it saw another one or none.
+  std::optional<std::size_t> seenBy(std::size_t view, std::size_t cell) const;
+  bool heldStill(std::size_t view, std::size_t cell_there) const;
+  Eigen::Vector3d placeOf(std::size_t cell) const;
+
+  const DepthGlimpse& now_;
+  std::vector<const DepthGlimpse*> views_;
+  std::vector<Eigen::Isometry3d> T_view_now_;
+  const SegmentationOptions& options_;
+  std::vector<Known> known_;               ///< cells
+  std::vector<std::uint8_t> wall_;         ///< cells
+  std::vector<std::uint8_t> row_is_done_;  ///< walls of these are found
+};
+
+}  // namespace colonnade
