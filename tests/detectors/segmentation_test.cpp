@@ -22,10 +22,21 @@ Scene room() {
   return scene;
 }
 
-/// The room seen from where the robot is, with a person as wide as a trunk at p (world).
-Frame seenFrom(const Pose2& T_world_robot, const std::optional<Eigen::Vector2d>& p_person,
-               std::size_t index, double step_s = 0.1) {
-  Scene scene = room();
+/// A corridor whose left wall opens into a room between x = 3.5 and 4.5.
+Scene corridor() {
+  Scene scene;
+  scene.faces.push_back({{-1.0, 1.1}, {3.5, 1.1}, 150.0});
+  scene.faces.push_back({{4.5, 1.1}, {9.0, 1.1}, 150.0});
+  scene.faces.push_back({{2.0, 4.0}, {6.0, 4.0}, 120.0});
+  scene.faces.push_back({{-1.0, -1.1}, {9.0, -1.1}, 120.0});
+  scene.faces.push_back({{9.0, -1.1}, {9.0, 1.1}, 100.0});
+  return scene;
+}
+
+/// A scene seen from where the robot is, with a person as wide as a trunk at p (world).
+Frame seenFrom(Scene scene, const Pose2& T_world_robot,
+               const std::optional<Eigen::Vector2d>& p_person, std::size_t index,
+               double step_s = 0.1) {
   if (p_person) {
     const Eigen::Vector2d half(0.0, 0.22);
     scene.faces.push_back({*p_person - half, *p_person + half, 30.0, 0.0, 1.75});
@@ -68,6 +79,7 @@ Called called(const Frame& frame, const Segmentation& segmentation, double perso
 }
 
 struct Drive {
+  Scene scene = room();
   double step_s = 0.1;
   Pose2 T_world_robot;
   Segmenter segmenter;
@@ -78,7 +90,7 @@ struct Drive {
 
   void step(const Pose2& increment, const std::optional<Eigen::Vector2d>& p_person) {
     T_world_robot = T_world_robot * increment;
-    frame = seenFrom(T_world_robot, p_person, index++, step_s);
+    frame = seenFrom(scene, T_world_robot, p_person, index++, step_s);
     segmentation = segmenter.segment(frame, index > 1 ? std::optional(increment) : std::nullopt);
   }
 };
@@ -132,6 +144,20 @@ TEST(Segmentation, KeepsWhatAPersonUncoversAtTwoFramesASecond) {
   }
 }
 
+TEST(Segmentation, KeepsTheWallThatSomebodyWhoWalksAheadUncovers) {
+  Drive drive;
+  drive.scene = corridor();
+  drive.step_s = 0.5;
+  for (int i = 0; i < 8; ++i) {
+    const double x = 2.6 + 0.45 * i;  // along the wall, which goes on beyond the opening
+    drive.step({0.35, 0.0, 0.0}, Eigen::Vector2d(x, 0.7));
+    if (i < 3) continue;
+    const Called share = called(drive.frame, drive.segmentation, x - 0.35 * (i + 1));
+    EXPECT_GT(share.person, 0.55) << "frame " << i;  // of what is as far: walls and floor too
+    EXPECT_LT(share.rest, 0.03) << "frame " << i;
+  }
+}
+
 TEST(Segmentation, FindsAPersonWhoGoesAtTwoFramesASecond) {
   for (const double side_m : {-0.3, 0.4}) {
     Drive drive;
@@ -153,7 +179,7 @@ TEST(Segmentation, RefusesWhatIsSeenOnAPersonAndNothingElse) {
   for (std::size_t i = 0; i < 14; ++i) {
     T_world_robot = T_world_robot * kAhead;
     const Eigen::Vector2d p_person(2.6, -1.2 + 0.08 * static_cast<double>(i));
-    const Frame frame = seenFrom(T_world_robot, p_person, i);
+    const Frame frame = seenFrom(room(), T_world_robot, p_person, i);
     const auto edges = backend->extract(frame.gray);
     const auto all = bank.detect(frame, edges, i > 0 ? std::optional(kAhead) : std::nullopt);
     if (i < 5) continue;
@@ -195,7 +221,7 @@ TEST(Segmentation, TakesAWrongMotionForWhatItIs) {
 }
 
 TEST(Segmentation, KeepsAnEdgeBesideSomebodyNearer) {
-  const Frame frame = seenFrom({}, std::nullopt, 0);
+  const Frame frame = seenFrom(room(), {}, std::nullopt, 0);
   Segmentation segmentation;
   segmentation.cell_px = 4;
   segmentation.columns = kWidth_px / 4;
@@ -228,7 +254,7 @@ TEST(Segmentation, KeepsAnEdgeBesideSomebodyNearer) {
 }
 
 TEST(Segmentation, FindsAPaneAndNotAWayOut) {
-  Frame frame = seenFrom({}, std::nullopt, 0);
+  Frame frame = seenFrom(room(), {}, std::nullopt, 0);
   Segmenter segmenter;
   EXPECT_EQ(segmenter.segment(frame, std::nullopt).count(Segmentation::kReflective), 0U);
   const cv::Rect pane(140, 40, 80, 70);
@@ -247,7 +273,7 @@ TEST(Segmentation, FindsAPaneAndNotAWayOut) {
 }
 
 TEST(Segmentation, RefusesWhatIsSeenInAPaneButNotItsFrame) {
-  Frame frame = seenFrom({}, std::nullopt, 0);
+  Frame frame = seenFrom(room(), {}, std::nullopt, 0);
   const cv::Rect pane(130, 20, 90, 110);
   frame.depth_m(pane).setTo(0.0F);
   const auto edge = [](double u) {

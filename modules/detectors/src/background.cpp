@@ -10,15 +10,13 @@ namespace {
 
 constexpr double kWidestMover_m = 1.0;  ///< straight: no person, nor the leaf of a door
 constexpr double kKnownWall_m = 0.3;    ///< of a straight piece; then it is a wall as a whole
+constexpr double kInWall_m = 0.05;      ///< from the plane of a wall seen before
+constexpr double kBeyondWall_m = 2.0;   ///< from the part of it that was seen
 constexpr double kLeastAge = 0.5;       ///< of a view that testifies, by the former one's
 
 /// Least squares: inverse depth over columns, linear on a plane.
 class StraightPiece {
  public:
-  void start(int column, float z_m) {
-    *this = {};
-    add(column, z_m);
-  }
   void add(int column, float z_m) {
     if (count_ == 0.0) origin_ = column;
     const double x = column - origin_, q = 1.0 / static_cast<double>(z_m);
@@ -40,6 +38,46 @@ class StraightPiece {
   int origin_ = 0;
   double count_ = 0.0, x_ = 0.0, q_ = 0.0, xx_ = 0.0, xq_ = 0.0;
 };
+
+struct Piece {
+  int first = 0, end = 0;  ///< columns
+  StraightPiece line;
+  double length_m = 0.0;
+};
+
+/// Cuts a row where its depth jumps or bends.
+std::vector<Piece> straightPieces(const DepthCells& cells, int row,
+                                  const SegmentationOptions& options) {
+  const float* const near_m = &cells.near_m[cells.index(0, row)];
+  std::vector<Piece> pieces;
+  const auto goesOn = [&](const StraightPiece& line, int column) {
+    const auto z = static_cast<double>(near_m[column]);
+    const double tolerance_m = 0.5 * (options.tolerance_m + options.tolerance_per_m2 * z * z);
+    const double expected_m = line.at(column);
+    return expected_m > 0.0 &&
+           std::abs(expected_m - z) < (line.count() < 3 ? 3.0 : 1.0) * tolerance_m;
+  };
+  const auto place = [&](int column) -> Eigen::Vector3d {
+    return static_cast<double>(near_m[column]) * cells.ray(column, row);
+  };
+  for (int column = 0; column < cells.columns;) {
+    if (near_m[column] == DepthCells::kNone) {
+      ++column;
+      continue;
+    }
+    Piece piece;
+    piece.first = column;
+    do {
+      piece.line.add(column, near_m[column]);
+      ++column;
+    } while (column < cells.columns && near_m[column] != DepthCells::kNone &&
+             goesOn(piece.line, column));
+    piece.end = column;
+    piece.length_m = (place(piece.end - 1) - place(piece.first)).norm();
+    if (piece.line.count() >= 3) pieces.push_back(piece);
+  }
+  return pieces;
+}
 
 }  // namespace
 
@@ -78,7 +116,7 @@ bool Background::heldStill(std::size_t view, std::size_t cell_there) const {
 }
 
 bool Background::isUncovered(std::size_t cell, const DepthGlimpse& former, double nearer_m) {
-  if (isWall(cell)) return true;
+  if (isWall(cell) || isInWall(cell)) return true;
   const auto z = static_cast<double>(now_.cells.near_m[cell]);
   const double tolerance_m = options_.tolerance_m + options_.tolerance_per_m2 * z * z;
   const double former_age_s = now_.stamp_s - former.stamp_s;
@@ -122,44 +160,62 @@ bool Background::isWall(std::size_t cell) {
   return wall_[cell];
 }
 
-/// Cuts a row where its depth jumps or bends, and keeps the pieces that are wide or known.
+/// Keeps what of a row is wide or known.
 void Background::findWalls(int row) {
   row_is_done_[static_cast<std::size_t>(row)] = 1;
-  const DepthCells& cells = now_.cells;
-  const std::size_t start = cells.index(0, row);
-  const float* const near_m = &cells.near_m[start];
-  StraightPiece piece;
-  const auto goesOn = [&](int column) {
-    const auto z = static_cast<double>(near_m[column]);
-    const double tolerance_m = 0.5 * (options_.tolerance_m + options_.tolerance_per_m2 * z * z);
-    const double expected_m = piece.at(column);
-    return expected_m > 0.0 &&
-           std::abs(expected_m - z) < (piece.count() < 3 ? 3.0 : 1.0) * tolerance_m;
-  };
-  const auto isWallFrom = [&](int first, int end) {
-    const auto at = [&](int column) { return placeOf(start + static_cast<std::size_t>(column)); };
-    const double length_m = (at(end - 1) - at(first)).norm();
-    if (length_m >= kWidestMover_m) return true;
-    if (length_m < kKnownWall_m) return false;
-    int known = 0;
-    for (int column = first; column < end; ++column)
-      known += isKnown(start + static_cast<std::size_t>(column)) ? 1 : 0;
-    return known * length_m >= kKnownWall_m * (end - first);
-  };
-  for (int first = 0; first < cells.columns;) {
-    int end = first + 1;
-    if (near_m[first] != DepthCells::kNone) {
-      piece.start(first, near_m[first]);
-      while (end < cells.columns && near_m[end] != DepthCells::kNone && goesOn(end)) {
-        piece.add(end, near_m[end]);
-        ++end;
-      }
-      if (end - first >= 3 && isWallFrom(first, end))
-        std::fill(wall_.begin() + static_cast<std::ptrdiff_t>(start) + first,
-                  wall_.begin() + static_cast<std::ptrdiff_t>(start) + end, std::uint8_t{1});
+  const std::size_t start = now_.cells.index(0, row);
+  for (const Piece& piece : straightPieces(now_.cells, row, options_)) {
+    bool wall = piece.length_m >= kWidestMover_m;
+    if (!wall && piece.length_m >= kKnownWall_m) {
+      int known = 0;
+      for (int column = piece.first; column < piece.end; ++column)
+        known += isKnown(start + static_cast<std::size_t>(column)) ? 1 : 0;
+      wall = known * piece.length_m >= kKnownWall_m * (piece.end - piece.first);
     }
-    first = end;
+    if (!wall) continue;
+    std::fill(wall_.begin() + static_cast<std::ptrdiff_t>(start) + piece.first,
+              wall_.begin() + static_cast<std::ptrdiff_t>(start) + piece.end, std::uint8_t{1});
   }
+}
+
+bool Background::isInWall(std::size_t cell) const {
+  const Eigen::Vector2d p = (now_.T_world_camera * placeOf(cell)).head<2>();
+  return std::any_of(views_.begin(), views_.end(), [&](const DepthGlimpse* view) {
+    if (now_.stamp_s - view->stamp_s < 0.9 * options_.short_history_s) return false;
+    return std::any_of(view->walls.begin(), view->walls.end(), [&](const WallLine& wall) {
+      const Eigen::Vector2d way = wall.b_world - wall.a_world;
+      const Eigen::Vector2d along = way.normalized();
+      const double place_m = along.dot(p - wall.a_world);
+      const double off_m =
+          along.x() * (p.y() - wall.a_world.y()) - along.y() * (p.x() - wall.a_world.x());
+      return std::abs(off_m) < kInWall_m && place_m > -kBeyondWall_m &&
+             place_m < way.norm() + kBeyondWall_m;
+    });
+  });
+}
+
+std::vector<WallLine> wallLines(const DepthGlimpse& view, const SegmentationOptions& options) {
+  std::vector<WallLine> lines;
+  const DepthCells& cells = view.cells;
+  // The row that looks level ahead.
+  const Eigen::Vector3d up = view.T_world_camera.linear().transpose() * Eigen::Vector3d::UnitZ();
+  int level = 0;
+  for (int row = 1; row < cells.rows; ++row) {
+    const auto off = [&](int r) { return std::abs(up.dot(cells.ray(cells.columns / 2, r))); };
+    if (off(row) < off(level)) level = row;
+  }
+  for (const Piece& piece : straightPieces(cells, level, options)) {
+    if (piece.length_m < kWidestMover_m) continue;
+    bool moving = view.moving.empty();
+    for (int column = piece.first; column < piece.end && !moving; ++column)
+      moving = view.moving[cells.index(column, level)];
+    if (moving) continue;
+    const auto place = [&](int column) -> Eigen::Vector2d {
+      return (view.T_world_camera * (piece.line.at(column) * cells.ray(column, level))).head<2>();
+    };
+    lines.push_back({place(piece.first), place(piece.end - 1)});
+  }
+  return lines;
 }
 
 }  // namespace colonnade

@@ -11,8 +11,8 @@
 namespace colonnade {
 
 /// Which surfaces of a view are parts of the room that somebody hid a moment ago, and not the
-/// somebody: what a view saw at its place before, what goes on straight from there, and what is
-/// wider than a person.
+/// somebody: what a view saw at its place before, what goes on straight from there, what lies in
+/// the plane of a wall seen before, and what is wider than a person.
 class Background {
  public:
   /// `now` and `views` must outlive this.
@@ -22,13 +22,14 @@ class Background {
   /// Whether a cell of `now` cannot show what `former` saw `nearer_m` before it.
   bool isUncovered(std::size_t cell, const DepthGlimpse& former, double nearer_m);
   /// Whether a cell of `now` shows a part of the room, whoever passes.
-  bool isStanding(std::size_t cell) { return isWall(cell) || isKnown(cell); }
+  bool isStanding(std::size_t cell) { return isWall(cell) || isInWall(cell) || isKnown(cell); }
 
  private:
   enum class Known : std::uint8_t { kNotAsked, kNo, kYes };
 
   bool isKnown(std::size_t cell);
   bool isWall(std::size_t cell);
+  bool isInWall(std::size_t cell) const;
   void findWalls(int row);
   /// Where a view saw the surface of a cell at its place; nothing where it saw another one or none.
   std::optional<std::size_t> seenBy(std::size_t view, std::size_t cell) const;
@@ -43,5 +44,8 @@ class Background {
   std::vector<std::uint8_t> wall_;         ///< cells
   std::vector<std::uint8_t> row_is_done_;  ///< walls of these are found
 };
+
+/// Walls that a view shows at the height of the camera: wider than what moves, and unmoved.
+std::vector<WallLine> wallLines(const DepthGlimpse& view, const SegmentationOptions& options);
 
 }  // namespace colonnade

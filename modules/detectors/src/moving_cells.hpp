@@ -11,12 +11,19 @@
 
 namespace colonnade {
 
+/// A part of a wall, in plan.
+struct WallLine {
+  Eigen::Vector2d a_world;
+  Eigen::Vector2d b_world;
+};
+
 /// Depth seen at one time, and from where in a world that holds still.
 struct DepthGlimpse {
   double stamp_s = 0.0;
   Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
   DepthCells cells;
   std::vector<std::uint8_t> moving;  ///< cells that moved then; empty: could not be told
+  std::vector<WallLine> walls;
 };
 
 class Background;

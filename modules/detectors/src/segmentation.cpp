@@ -106,7 +106,7 @@ Segmentation Segmenter::segment(const Frame& frame, const std::optional<Pose2>& 
   Segmentation result;
   if (!(options.moving || options.reflective) || !frame.camera.isCalibrated()) return result;
   DepthGlimpse now{
-      frame.stamp_s, T_world_robot.toIsometry3() * frame.T_robot_camera, makeDepthCells(frame), {}};
+      frame.stamp_s, T_world_robot.toIsometry3() * frame.T_robot_camera, makeDepthCells(frame), {}, {}};
   if (now.cells.empty()) return result;
   result.cell_px = now.cells.cell_px;
   result.columns = now.cells.columns;
@@ -122,6 +122,7 @@ Segmentation Segmenter::segment(const Frame& frame, const std::optional<Pose2>& 
     now.moving = impl_->moving(now, frame);
     for (std::size_t i = 0; i < now.moving.size(); ++i)
       if (now.moving[i]) result.labels[i] = Segmentation::kMoving;
+    now.walls = wallLines(now, options);
     impl_->remember(std::move(now));
   }
   return result;
