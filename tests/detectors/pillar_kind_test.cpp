@@ -158,6 +158,9 @@ TEST(PillarKind, AnEdgeWhoseContrastFadesAwayDoesNotEndThere) {
   const Eigen::Vector2d ridge(3.5, 0.0);
   const auto fading = [](int v) { return std::max(0.0, 44.0 - 0.18 * v); };
   EXPECT_TRUE(seesEdgeAt(detectAll(pilaster(fading)), ridge));
+  // Faint for longer than it is strong, and seen over 0.9 m.
+  const auto faint = [](int v) { return v < 165 ? std::max(17.0, 60.0 - 0.45 * v) : 0.0; };
+  EXPECT_TRUE(seesEdgeAt(detectAll(pilaster(faint)), ridge));
   const auto ending = [](int v) { return v < 160 ? 30.0 : 0.0; };
   EXPECT_FALSE(seesEdgeAt(detectAll(pilaster(ending)), ridge));
 }

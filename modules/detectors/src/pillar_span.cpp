@@ -20,9 +20,11 @@ constexpr double kLeastGap_m = 0.12;     // of height without the edge
 constexpr double kLastStretch_m = 0.05;  // before the floor or the head: an edge reaches it or ends
 constexpr double kGapRows = 14.0;        // at least, or kLastStretch_m, without an edge
 constexpr double kEnd_px = 6.0;          // by which a line may end too early
-constexpr double kTallFade_m = 1.0;      // of an edge whose contrast may fade before it ends
+constexpr double kTallFade_m = 1.0;      // of an edge whose contrast may fade before it ends,
+constexpr double kLowFade_m = 0.9;       // and of one that comes down so far that
+constexpr double kBoard_m = 0.8;         // no board hangs there
 constexpr double kFadePart = 0.2;        // of the seen edge, at its end and before that
-constexpr double kFaded = 0.6, kFading = 0.85;  // of its contrast, there and before that
+constexpr double kFaded = 0.6, kFading = 0.85;  // of its strongest part, there and before that
 constexpr double kFaintest = 20.0;              // gray levels: where lines cease to be found
 constexpr double kHeadDoubt_m = 0.2;            // of min_head_m, to call an edge tall
 constexpr double kFar_m = 1e3;
@@ -96,8 +98,9 @@ class Beyond {
   /// Has the contrast of a tall edge become weaker and weaker towards an end (way: 1 down, -1 up)
   /// until it was too faint to be seen, as where the light on its two sides becomes the same?
   /// Boards, panels and cabinets end at once.
-  bool fadesTowards(const SeenSpan& span, int way, int own_contrast) const {
-    if (heightAt(span.top) - heightAt(span.bottom) < kTallFade_m) return false;
+  bool fadesTowards(const SeenSpan& span, int way) const {
+    const double foot_m = heightAt(span.bottom), seen_m = heightAt(span.top) - foot_m;
+    if (seen_m < (foot_m < kBoard_m ? kLowFade_m : kTallFade_m)) return false;
     const double end = way > 0 ? span.bottom : span.top;
     const double part = kFadePart * (span.bottom - span.top);
     const auto contrastWithin = [&](double from, double to) {
@@ -107,9 +110,12 @@ class Beyond {
           contrasts.push_back(*contrast);
       return medianOf(contrasts);
     };
+    int strongest = 0;
+    for (int i = 0; i * kFadePart < 1.0 - 1e-9; ++i)
+      strongest = std::max(strongest, contrastWithin(i * part, (i + 1) * part));
     const int last = contrastWithin(kEnd_px, kEnd_px + part);
-    return last < std::min(kFaded * own_contrast, kFaintest) &&
-           contrastWithin(kEnd_px + part, kEnd_px + 2.0 * part) < kFading * own_contrast;
+    return last < std::min(kFaded * strongest, kFaintest) &&
+           contrastWithin(kEnd_px + part, kEnd_px + 2.0 * part) < kFading * strongest;
   }
   Evidence between(double top, double bottom) const {
     const double first = std::max(top, 2.0), last = std::min(bottom, gray_.rows - 3.0);
@@ -314,9 +320,7 @@ SpanVerdict judgeSpan(const UprightEdge& edge, const SeenSpan& span) {
   const double foot_m = beyond.heightAt(span.bottom), head_m = beyond.heightAt(span.top);
   const double row_m = beyond.heightAt(span.bottom) - beyond.heightAt(span.bottom + 1.0);
   const double highest_foot_m = options.max_foot_m + kEnd_px * row_m;
-  const auto fades = [&](int way) {
-    return edge.may_fade && beyond.fadesTowards(span, way, edge.contrast);
-  };
+  const auto fades = [&](int way) { return edge.may_fade && beyond.fadesTowards(span, way); };
   if (!leavesBelow(edge, span) && foot_m > highest_foot_m) {
     const double from = span.bottom + kPause_px;
     const bool may_turn = foot_m < 2.0 * options.max_foot_m;
