@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "straight_pieces.hpp"
+
 namespace colonnade {
 namespace {
 
@@ -12,72 +14,8 @@ constexpr double kWidestMover_m = 1.0;  ///< straight: no person, nor the leaf o
 constexpr double kKnownWall_m = 0.3;    ///< of a straight piece; then it is a wall as a whole
 constexpr double kInWall_m = 0.05;      ///< from the plane of a wall seen before
 constexpr double kBeyondWall_m = 2.0;   ///< from the part of it that was seen
+constexpr double kLevel = 0.1;          ///< slope of what looks level
 constexpr double kLeastAge = 0.5;       ///< of a view that testifies, by the former one's
-
-/// Least squares: inverse depth over columns, linear on a plane.
-class StraightPiece {
- public:
-  void add(int column, float z_m) {
-    if (count_ == 0.0) origin_ = column;
-    const double x = column - origin_, q = 1.0 / static_cast<double>(z_m);
-    count_ += 1.0;
-    x_ += x;
-    q_ += q;
-    xx_ += x * x;
-    xq_ += x * q;
-  }
-  /// Depth at a column, metres; not positive beyond the horizon.
-  double at(int column) const {
-    const double spread = count_ * xx_ - x_ * x_;
-    const double slope = spread > 0.0 ? (count_ * xq_ - x_ * q_) / spread : 0.0;
-    return 1.0 / ((q_ - slope * x_) / count_ + slope * (column - origin_));
-  }
-  int count() const { return static_cast<int>(count_); }
-
- private:
-  int origin_ = 0;
-  double count_ = 0.0, x_ = 0.0, q_ = 0.0, xx_ = 0.0, xq_ = 0.0;
-};
-
-struct Piece {
-  int first = 0, end = 0;  ///< columns
-  StraightPiece line;
-  double length_m = 0.0;
-};
-
-/// Cuts a row where its depth jumps or bends.
-std::vector<Piece> straightPieces(const DepthCells& cells, int row,
-                                  const SegmentationOptions& options) {
-  const float* const near_m = &cells.near_m[cells.index(0, row)];
-  std::vector<Piece> pieces;
-  const auto goesOn = [&](const StraightPiece& line, int column) {
-    const auto z = static_cast<double>(near_m[column]);
-    const double tolerance_m = 0.5 * (options.tolerance_m + options.tolerance_per_m2 * z * z);
-    const double expected_m = line.at(column);
-    return expected_m > 0.0 &&
-           std::abs(expected_m - z) < (line.count() < 3 ? 3.0 : 1.0) * tolerance_m;
-  };
-  const auto place = [&](int column) -> Eigen::Vector3d {
-    return static_cast<double>(near_m[column]) * cells.ray(column, row);
-  };
-  for (int column = 0; column < cells.columns;) {
-    if (near_m[column] == DepthCells::kNone) {
-      ++column;
-      continue;
-    }
-    Piece piece;
-    piece.first = column;
-    do {
-      piece.line.add(column, near_m[column]);
-      ++column;
-    } while (column < cells.columns && near_m[column] != DepthCells::kNone &&
-             goesOn(piece.line, column));
-    piece.end = column;
-    piece.length_m = (place(piece.end - 1) - place(piece.first)).norm();
-    if (piece.line.count() >= 3) pieces.push_back(piece);
-  }
-  return pieces;
-}
 
 }  // namespace
 
@@ -86,11 +24,15 @@ Background::Background(const DepthGlimpse& now, std::vector<const DepthGlimpse*>
     : now_(now),
       views_(std::move(views)),
       options_(options),
+      apart_s_(0.9 * options.short_history_s),
       known_(now.cells.near_m.size(), Known::kNotAsked),
       wall_(now.cells.near_m.size(), 0),
       row_is_done_(static_cast<std::size_t>(now.cells.rows), 0) {
-  for (const DepthGlimpse* view : views_)
+  for (const DepthGlimpse* view : views_) {
     T_view_now_.push_back(view->T_world_camera.inverse() * now.T_world_camera);
+    if (now.stamp_s - view->stamp_s >= apart_s_)
+      walls_.insert(walls_.end(), view->walls.begin(), view->walls.end());
+  }
 }
 
 Eigen::Vector3d Background::placeOf(std::size_t cell) const {
@@ -100,8 +42,9 @@ Eigen::Vector3d Background::placeOf(std::size_t cell) const {
   return static_cast<double>(cells.near_m[cell]) * cells.ray(column, row);
 }
 
-std::optional<std::size_t> Background::seenBy(std::size_t view, std::size_t cell) const {
-  const Eigen::Vector3d p_view = T_view_now_[view] * placeOf(cell);
+std::optional<std::size_t> Background::seenBy(std::size_t view,
+                                              const Eigen::Vector3d& p_now) const {
+  const Eigen::Vector3d p_view = T_view_now_[view] * p_now;
   const auto there = views_[view]->cells.cellOf(p_view);
   if (!there) return std::nullopt;
   const auto seen_m = static_cast<double>(views_[view]->cells.near_m[*there]);
@@ -120,17 +63,18 @@ bool Background::isUncovered(std::size_t cell, const DepthGlimpse& former, doubl
   const auto z = static_cast<double>(now_.cells.near_m[cell]);
   const double tolerance_m = options_.tolerance_m + options_.tolerance_per_m2 * z * z;
   const double former_age_s = now_.stamp_s - former.stamp_s;
-  double first_s = 0.0;  // a view, moving or not, that saw it
+  const Eigen::Vector3d p_now = placeOf(cell);
+  std::optional<double> first_s;  // a view, moving or not, that saw it
   for (std::size_t i = 0; i < views_.size(); ++i) {
     // Had it come from where `former` saw it at one speed, so old a view would have seen it off its
     // place.
     const double age_s = now_.stamp_s - views_[i]->stamp_s;
     if (age_s < kLeastAge * former_age_s || nearer_m * age_s < tolerance_m * former_age_s) continue;
-    const auto there = seenBy(i, cell);
+    const auto there = seenBy(i, p_now);
     if (!there) continue;
     if (heldStill(i, *there)) return true;
-    if (first_s == 0.0) first_s = views_[i]->stamp_s;
-    if (views_[i]->stamp_s - first_s >= 0.9 * options_.short_history_s) return true;
+    if (!first_s) first_s = views_[i]->stamp_s;
+    if (views_[i]->stamp_s - *first_s >= apart_s_) return true;
   }
   return false;
 }
@@ -139,15 +83,15 @@ bool Background::isUncovered(std::size_t cell, const DepthGlimpse& former, doubl
 bool Background::isKnown(std::size_t cell) {
   if (known_[cell] == Known::kNotAsked) {
     known_[cell] = Known::kNo;
-    const double apart_s = 0.9 * options_.short_history_s;
-    double first_s = 0.0;
+    const Eigen::Vector3d p_now = placeOf(cell);
+    std::optional<double> first_s;
     for (std::size_t i = 0; i < views_.size() && known_[cell] == Known::kNo; ++i) {
       const double stamp_s = views_[i]->stamp_s;
-      if (now_.stamp_s - stamp_s < apart_s) break;
-      if (first_s > 0.0 && stamp_s - first_s < apart_s) continue;
-      const auto there = seenBy(i, cell);
+      if (now_.stamp_s - stamp_s < apart_s_) break;
+      if (first_s && stamp_s - *first_s < apart_s_) continue;
+      const auto there = seenBy(i, p_now);
       if (!there || !heldStill(i, *there)) continue;
-      if (first_s > 0.0) known_[cell] = Known::kYes;
+      if (first_s) known_[cell] = Known::kYes;
       first_s = stamp_s;
     }
   }
@@ -164,7 +108,7 @@ bool Background::isWall(std::size_t cell) {
 void Background::findWalls(int row) {
   row_is_done_[static_cast<std::size_t>(row)] = 1;
   const std::size_t start = now_.cells.index(0, row);
-  for (const Piece& piece : straightPieces(now_.cells, row, options_)) {
+  for (const StraightPiece& piece : straightPieces(now_.cells, row, options_)) {
     bool wall = piece.length_m >= kWidestMover_m;
     if (!wall && piece.length_m >= kKnownWall_m) {
       int known = 0;
@@ -179,18 +123,14 @@ void Background::findWalls(int row) {
 }
 
 bool Background::isInWall(std::size_t cell) const {
+  if (walls_.empty()) return false;
   const Eigen::Vector2d p = (now_.T_world_camera * placeOf(cell)).head<2>();
-  return std::any_of(views_.begin(), views_.end(), [&](const DepthGlimpse* view) {
-    if (now_.stamp_s - view->stamp_s < 0.9 * options_.short_history_s) return false;
-    return std::any_of(view->walls.begin(), view->walls.end(), [&](const WallLine& wall) {
-      const Eigen::Vector2d way = wall.b_world - wall.a_world;
-      const Eigen::Vector2d along = way.normalized();
-      const double place_m = along.dot(p - wall.a_world);
-      const double off_m =
-          along.x() * (p.y() - wall.a_world.y()) - along.y() * (p.x() - wall.a_world.x());
-      return std::abs(off_m) < kInWall_m && place_m > -kBeyondWall_m &&
-             place_m < way.norm() + kBeyondWall_m;
-    });
+  return std::any_of(walls_.begin(), walls_.end(), [&p](const WallLine& wall) {
+    const Eigen::Vector2d offset = p - wall.p_world;
+    const double place_m = wall.along.dot(offset);
+    const double off_m = wall.along.x() * offset.y() - wall.along.y() * offset.x();
+    return std::abs(off_m) < kInWall_m && place_m > -kBeyondWall_m &&
+           place_m < wall.length_m + kBeyondWall_m;
   });
 }
 
@@ -199,12 +139,12 @@ std::vector<WallLine> wallLines(const DepthGlimpse& view, const SegmentationOpti
   const DepthCells& cells = view.cells;
   // The row that looks level ahead.
   const Eigen::Vector3d up = view.T_world_camera.linear().transpose() * Eigen::Vector3d::UnitZ();
+  const auto off = [&](int row) { return std::abs(up.dot(cells.ray(cells.columns / 2, row))); };
   int level = 0;
-  for (int row = 1; row < cells.rows; ++row) {
-    const auto off = [&](int r) { return std::abs(up.dot(cells.ray(cells.columns / 2, r))); };
+  for (int row = 1; row < cells.rows; ++row)
     if (off(row) < off(level)) level = row;
-  }
-  for (const Piece& piece : straightPieces(cells, level, options)) {
+  if (off(level) > kLevel) return {};
+  for (const StraightPiece& piece : straightPieces(cells, level, options)) {
     if (piece.length_m < kWidestMover_m) continue;
     bool moving = view.moving.empty();
     for (int column = piece.first; column < piece.end && !moving; ++column)
@@ -213,7 +153,8 @@ std::vector<WallLine> wallLines(const DepthGlimpse& view, const SegmentationOpti
     const auto place = [&](int column) -> Eigen::Vector2d {
       return (view.T_world_camera * (piece.line.at(column) * cells.ray(column, level))).head<2>();
     };
-    lines.push_back({place(piece.first), place(piece.end - 1)});
+    const Eigen::Vector2d way = place(piece.end - 1) - place(piece.first);
+    lines.push_back({place(piece.first), way.normalized(), way.norm()});
   }
   return lines;
 }

@@ -31,21 +31,25 @@ class Background {
   bool isWall(std::size_t cell);
   bool isInWall(std::size_t cell) const;
   void findWalls(int row);
-  /// Where a view saw the surface of a cell at its place; nothing where it saw another one or none.
-  std::optional<std::size_t> seenBy(std::size_t view, std::size_t cell) const;
+  /// Where a view saw the surface of a cell (in the camera's axes) at its place; nothing where it
+  /// saw another one or none.
+  std::optional<std::size_t> seenBy(std::size_t view, const Eigen::Vector3d& p_now) const;
   bool heldStill(std::size_t view, std::size_t cell_there) const;
   Eigen::Vector3d placeOf(std::size_t cell) const;
 
   const DepthGlimpse& now_;
   std::vector<const DepthGlimpse*> views_;
   std::vector<Eigen::Isometry3d> T_view_now_;
+  std::vector<WallLine> walls_;  ///< of all views
   const SegmentationOptions& options_;
+  double apart_s_;                         ///< two views that testify
   std::vector<Known> known_;               ///< cells
   std::vector<std::uint8_t> wall_;         ///< cells
   std::vector<std::uint8_t> row_is_done_;  ///< walls of these are found
 };
 
-/// Walls that a view shows at the height of the camera: wider than what moves, and unmoved.
+/// Walls that a view shows at the height of the camera: wider than what moves, and unmoved. None
+/// where it does not look level.
 std::vector<WallLine> wallLines(const DepthGlimpse& view, const SegmentationOptions& options);
 
 }  // namespace colonnade

@@ -13,8 +13,9 @@ namespace colonnade {
 
 /// A part of a wall, in plan.
 struct WallLine {
-  Eigen::Vector2d a_world;
-  Eigen::Vector2d b_world;
+  Eigen::Vector2d p_world;  ///< one end
+  Eigen::Vector2d along;    ///< to the other
+  double length_m;
 };
 
 /// Depth seen at one time, and from where in a world that holds still.
