@@ -105,8 +105,11 @@ Segmentation Segmenter::segment(const Frame& frame, const std::optional<Pose2>& 
   if (T_previous_robot) T_world_robot = T_world_robot * *T_previous_robot;
   Segmentation result;
   if (!(options.moving || options.reflective) || !frame.camera.isCalibrated()) return result;
-  DepthGlimpse now{
-      frame.stamp_s, T_world_robot.toIsometry3() * frame.T_robot_camera, makeDepthCells(frame), {}, {}};
+  DepthGlimpse now{frame.stamp_s,
+                   T_world_robot.toIsometry3() * frame.T_robot_camera,
+                   makeDepthCells(frame),
+                   {},
+                   {}};
   if (now.cells.empty()) return result;
   result.cell_px = now.cells.cell_px;
   result.columns = now.cells.columns;

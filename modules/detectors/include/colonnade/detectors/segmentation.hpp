@@ -79,11 +79,12 @@ struct Segmentation {
   std::optional<std::size_t> cellOf(const Eigen::Vector2d& p_px) const;
 };
 
-/// Keeps the depth of the last second and tells, frame by frame, what does not fit a static world
+/// Keeps the depth of the last seconds and tells, frame by frame, what does not fit a static world
 /// and which holes in the depth are panes or mirrors.
 ///
 /// Moving: a surface where a former view looked through free space, or the place of a surface that
-/// the present view looks through, if what is seen behind may be the same thing farther off. Both
+/// the present view looks through, if what is seen behind may be the same thing farther off and is
+/// not known as a part of the room that it no longer hides. Both
 /// need depth in both views: people beyond the sensor's reach are not seen.
 /// Reflective: an area without depth whose outline is a surface well within the sensor's reach; so
 /// a way out into the distance is none.
