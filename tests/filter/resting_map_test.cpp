@@ -213,6 +213,15 @@ TEST(RestingMap, WakingAllOfItChangesNothingElse) {
   for (const Block& block : before.blocks) EXPECT_FALSE(filter.isResting(block.id));
 }
 
+Measurement readingOf(const EkfSlam& filter, const State& state, const Block& block) {
+  Measurement m;
+  m.kind = block.landmark_kind;
+  m.z = Eigen::Vector2d(0.0, 1.0);
+  m.R = Eigen::Vector2d(1e-4, 1e-3).asDiagonal();
+  m.z = predictMeasurement(filter.pose(), block.block_kind, state.values(block), m).z;
+  return m;
+}
+
 TEST(RestingMap, ARestingLandmarkIsFoundByItsReading) {
   Ring ring({withActive(6, true)});
   for (int i = 0; i < Ring::kStepsAround / 2; ++i) ring.step();
@@ -221,11 +230,7 @@ TEST(RestingMap, ARestingLandmarkIsFoundByItsReading) {
   const State all = filter.fullState();
   for (const Block& block : all.blocks) {
     if (block.block_kind != BlockKind::kPoint || !filter.isResting(block.id)) continue;
-    Measurement m;
-    m.kind = block.landmark_kind;
-    m.z = Eigen::Vector2d(0.0, 1.0);
-    m.R = Eigen::Vector2d(1e-4, 1e-3).asDiagonal();
-    m.z = predictMeasurement(filter.pose(), block.block_kind, all.values(block), m).z;
+    const Measurement m = readingOf(filter, all, block);
     const auto near = filter.restingNear({&m, 1});
     ++resting;
     found += std::count(near.begin(), near.end(), block.id) == 1 ? 1 : 0;
@@ -233,6 +238,28 @@ TEST(RestingMap, ARestingLandmarkIsFoundByItsReading) {
   }
   EXPECT_GT(resting, 5u);
   EXPECT_EQ(resting, found);
+}
+
+TEST(RestingMap, AllThatIsReadIsActiveAfterwards) {
+  Ring ring({withActive(6, true)});
+  for (int i = 0; i < Ring::kStepsAround / 2; ++i) ring.step();
+  const State all = ring.filters[0].fullState();
+  int woken = 0;
+  for (const Block& block : all.blocks) {
+    if (block.block_kind != BlockKind::kPoint || !ring.filters[0].isResting(block.id)) continue;
+    EkfSlam filter = ring.filters[0];
+    std::vector<LandmarkId> read{block.id};
+    std::vector<Measurement> readings{readingOf(filter, all, block)};
+    for (const Block& active : filter.state().blocks) {
+      if (active.block_kind != BlockKind::kPoint) continue;
+      read.push_back(active.id);
+      readings.push_back(readingOf(filter, filter.state(), active));
+    }
+    filter.focus({}, readings);
+    for (const LandmarkId id : read) EXPECT_FALSE(filter.isResting(id));
+    ++woken;
+  }
+  EXPECT_GT(woken, 5);
 }
 
 /// What is left out makes the covariance of all larger by something positive semidefinite, and no

@@ -120,7 +120,9 @@ struct RingOutcome {
   std::size_t most_active = 0;
   State full;
 };
-RingOutcome driveRing(const RangeBearingOptions& options, int active_landmarks) {
+/// Now and then there is something where `ghosts_m` says, ahead and to the left; never again.
+RingOutcome driveRing(const RangeBearingOptions& options, int active_landmarks,
+                      std::optional<Eigen::Vector2d> ghosts_m = std::nullopt) {
   constexpr double kRadius_m = 30.0;
   constexpr int kPosts = 120, kRingSteps = 790;
   std::mt19937_64 random(3);
@@ -152,6 +154,11 @@ RingOutcome driveRing(const RangeBearingOptions& options, int active_landmarks) 
       scan.readings.push_back(
           {i + 1, p.norm() + noise(0.05), std::atan2(p.y(), p.x()) + noise(radians(0.5)), 0.0, {}});
       identities.push_back(i + 1);
+    }
+    if (ghosts_m && step % 50 == 10) {
+      scan.readings.push_back(
+          {-1, ghosts_m->norm(), std::atan2(ghosts_m->y(), ghosts_m->x()), 0.0, {}});
+      identities.push_back(-1);
     }
     estimator.step(0.25 * step, motion, scan);
     outcome.rmse_m +=
@@ -185,6 +192,18 @@ TEST(RangeBearing, LargeMapsLetFarLandmarksRestAndLoseNothing) {
             .eigenvalues();
     EXPECT_GE(eigenvalues.minCoeff(), -1e-9 * eigenvalues.maxCoeff());
   }
+}
+
+TEST(RangeBearing, WhatWasSeenOnceIsForgottenWhereItRests) {
+  RangeBearingOptions options;
+  options.use_ids = false;
+  options.association = "jcbb";
+  options.world_with_map = false;
+  options.probation_s = 20.0;
+  const RingOutcome full = driveRing(options, 0, Eigen::Vector2d(4.0, 12.0));
+  const RingOutcome compressed = driveRing(options, 12, Eigen::Vector2d(4.0, 12.0));
+  EXPECT_LT(full.landmarks, 123u);
+  EXPECT_EQ(full.landmarks, compressed.landmarks);
 }
 
 TEST(RangeBearing, KnownIdentitiesMapAllPosts) {

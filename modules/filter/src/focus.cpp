@@ -15,28 +15,57 @@ constexpr double kNearProbability = 0.9999;
 /// Four times that gate, for a first look by distance: Var(a - b) is at most 2 (Var a + Var b).
 constexpr double kFirstLook2 = 4.0 * 18.4;
 constexpr double kFarthestInverseDepth = 1e-3;
-/// What is active lies around a point ahead of the robot, by this share of its radius: the way it
-/// goes is the way it looks, and landmarks are exchanged half as often. Farther ahead, what is seen
-/// behind it would rest.
-constexpr double kAhead = 0.5;
+/// What is active lies along the way ahead: what the robot sees next is there, and landmarks are
+/// exchanged half as often as with the nearest ones. As long as so many times the radius in which
+/// as many would lie around the robot; what is wider is left out for it.
+constexpr double kAhead = 1.0;
 
-/// How far the robot is from a landmark; from the nearest seen point of a floor edge.
-double distanceTo(const Block& block, const BlockVector& y, const Eigen::Vector2d& p_robot) {
+/// From one end to the other; a point has both ends in one place.
+struct Segment {
+  Eigen::Vector2d from;
+  Eigen::Vector2d to;
+
+  double distanceTo(const Eigen::Vector2d& p) const {
+    const Eigen::Vector2d way = to - from;
+    const double length2 = way.squaredNorm();
+    const double share = length2 > 0.0 ? std::clamp((p - from).dot(way) / length2, 0.0, 1.0) : 0.0;
+    return (p - from - share * way).norm();
+  }
+};
+
+double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+bool haveCrossed(const Segment& a, const Segment& b) {
+  const auto onBothSides = [](const Segment& line, const Segment& of) {
+    const Eigen::Vector2d way = line.to - line.from;
+    return cross(way, of.from - line.from) * cross(way, of.to - line.from) < 0.0;
+  };
+  return onBothSides(a, b) && onBothSides(b, a);
+}
+
+double distanceBetween(const Segment& a, const Segment& b) {
+  if (haveCrossed(a, b)) return 0.0;
+  return std::min(
+      {a.distanceTo(b.from), a.distanceTo(b.to), b.distanceTo(a.from), b.distanceTo(a.to)});
+}
+
+/// Where a landmark is; of a floor edge the part that was seen.
+Segment extentOf(const Block& block, const BlockVector& y) {
   switch (block.block_kind) {
     case BlockKind::kFloorLine: {
-      const Eigen::Vector2d m(std::cos(y(2)), std::sin(y(2)));
-      const Eigen::Vector2d from_foot = p_robot - y.head<2>() - y(3) * m;
-      const double along = -from_foot.x() * m.y() + from_foot.y() * m.x();
-      const double beside =
-          along - std::clamp(along, block.evidence.along_min_m,
-                             std::max(block.evidence.along_min_m, block.evidence.along_max_m));
-      return std::hypot(m.dot(from_foot), beside);
+      const Eigen::Vector2d m(std::cos(y(2)), std::sin(y(2))), along(-m.y(), m.x());
+      const Eigen::Vector2d foot = y.head<2>() + y(3) * m;
+      return {foot + block.evidence.along_min_m * along, foot + block.evidence.along_max_m * along};
     }
-    case BlockKind::kInverseDepth:
-      return ((y(3) > kFarthestInverseDepth ? pointOf(y) : Eigen::Vector2d(y.head<2>())) - p_robot)
-          .norm();
+    case BlockKind::kInverseDepth: {
+      const Eigen::Vector2d p =
+          y(3) > kFarthestInverseDepth ? pointOf(y) : Eigen::Vector2d(y.head<2>());
+      return {p, p};
+    }
     default:
-      return (y.head<2>() - p_robot).norm();
+      return {y.head<2>(), y.head<2>()};
   }
 }
 
@@ -47,8 +76,9 @@ struct Place {
 };
 
 /// The `count` nearest come first; returns the distance of the farthest of them.
-double nearest(std::vector<Place>& places, std::size_t count, const Eigen::Vector2d& p_world) {
-  for (Place& place : places) place.distance = distanceTo(*place.block, place.y, p_world);
+double nearest(std::vector<Place>& places, std::size_t count, const Segment& way) {
+  for (Place& place : places)
+    place.distance = distanceBetween(way, extentOf(*place.block, place.y));
   if (count == 0) return 0.0;
   std::nth_element(places.begin(), places.begin() + static_cast<std::ptrdiff_t>(count - 1),
                    places.end(), [](const Place& a, const Place& b) {
@@ -57,18 +87,50 @@ double nearest(std::vector<Place>& places, std::size_t count, const Eigen::Vecto
   return places[count - 1].distance;
 }
 
+/// A measurement with range, and where and how widely around it its landmark may be.
+struct Sighting {
+  const Measurement* measurement;
+  Eigen::Vector2d p_world;
+  double spread2;  ///< m^2, but for the landmark's own
+  double reach_m;  ///< of a first look, by that spread
+
+  /// Whether a first look rules out a landmark at `p` with a reach of its own. The square root of
+  /// a sum is at most the sum of the roots.
+  bool isFarFrom(const Eigen::Vector2d& p, double own_reach_m) const {
+    const double both_m = own_reach_m + reach_m;
+    return (p - p_world).squaredNorm() > both_m * both_m;
+  }
+};
+
+std::vector<Sighting> sightings(std::span<const Measurement> measurements, const Pose2& pose,
+                                const Eigen::Matrix3d& P_robot) {
+  std::vector<Sighting> sightings;
+  for (const Measurement& m : measurements) {
+    if (!m.hasRange() || m.kind == LandmarkKind::kFloorEdge) continue;
+    if (!m.z.allFinite() || !m.R.allFinite()) continue;
+    const Eigen::Vector2d p_world = pointFromRange(pose, m).block;
+    const double range2 = (p_world - pose.translation()).squaredNorm();
+    const double spread2 =
+        P_robot.topLeftCorner<2, 2>().trace() + range2 * (P_robot(2, 2) + m.R(0, 0)) + m.R(1, 1);
+    sightings.push_back({&m, p_world, spread2, std::sqrt(kFirstLook2 * spread2)});
+  }
+  return sightings;
+}
+
 }  // namespace
 
-void EkfSlam::focus(std::span<const LandmarkId> needed) {
+void EkfSlam::focus(std::span<const LandmarkId> needed, std::span<const Measurement> open) {
   if (options_.active_landmarks <= 0 || fixed_ > 0) return;
   const auto isChoosable = [](const Block& b) { return b.isLandmark() && !b.evidence.hypothesis; };
   const auto most = static_cast<std::ptrdiff_t>(options_.active_landmarks);
-  const bool wakes =
-      std::any_of(needed.begin(), needed.end(), [&](LandmarkId id) { return isResting(id); });
+  const auto woken = restingNear(open);
+  const bool wakes = !woken.empty() || std::any_of(needed.begin(), needed.end(),
+                                                   [&](LandmarkId id) { return isResting(id); });
   if (!wakes && std::count_if(state_.blocks.begin(), state_.blocks.end(), isChoosable) <= 2 * most)
     return;
 
-  std::vector<LandmarkId> active;
+  std::vector<LandmarkId> active = woken;
+  for (const LandmarkId id : activeNear(open)) active.push_back(id);
   std::vector<Place> places;
   for (const Block& block : state_.blocks) {
     if (isChoosable(block))
@@ -80,8 +142,9 @@ void EkfSlam::focus(std::span<const LandmarkId> needed) {
   for (const Block& block : resting_.blocks())
     places.push_back({&block, resting_.valueThen(block)});
   const auto count = std::min<std::size_t>(places.size(), options_.active_landmarks);
-  const double radius = nearest(places, count, pose().translation());
-  nearest(places, count, transform(pose(), Eigen::Vector2d(kAhead * radius, 0.0)));
+  const Eigen::Vector2d p_robot = pose().translation();
+  const double radius = nearest(places, count, {p_robot, p_robot});
+  nearest(places, count, {p_robot, transform(pose(), Eigen::Vector2d(kAhead * radius, 0.0))});
   for (std::size_t i = 0; i < count; ++i) active.push_back(places[i].block->id);
   for (const LandmarkId id : needed)
     if (state_.find(id) || isResting(id)) active.push_back(id);
@@ -90,31 +153,27 @@ void EkfSlam::focus(std::span<const LandmarkId> needed) {
   resting_.exchange(state_, active, options_.invariant, options_.negligible_gain);
 }
 
-namespace {
-
-/// A measurement with range, and where and how widely around it its landmark may be.
-struct Sighting {
-  const Measurement* measurement;
-  Eigen::Vector2d p_world;
-  double spread2;  ///< m^2, but for the landmark's own
-};
-
-std::vector<Sighting> sightings(std::span<const Measurement> measurements, const Pose2& pose,
-                                const Eigen::Matrix3d& P_robot) {
-  std::vector<Sighting> sightings;
-  for (const Measurement& m : measurements) {
-    if (!m.hasRange() || m.kind == LandmarkKind::kFloorEdge) continue;
-    if (!m.z.allFinite() || !m.R.allFinite()) continue;
-    const Eigen::Vector2d p_world = pointFromRange(pose, m).block;
-    const double range2 = (p_world - pose.translation()).squaredNorm();
-    sightings.push_back(
-        {&m, p_world,
-         P_robot.topLeftCorner<2, 2>().trace() + range2 * (P_robot(2, 2) + m.R(0, 0)) + m.R(1, 1)});
+std::vector<LandmarkId> EkfSlam::activeNear(std::span<const Measurement> measurements) const {
+  std::vector<LandmarkId> near;
+  const auto seen = sightings(measurements, pose(), poseCovariance());
+  const double bound = chiSquareQuantile(kNearProbability, 2);
+  const auto mayBe = [&](const Block& block, const Measurement& m) {
+    const auto predicted = innovation(block.id, m);
+    return !predicted || predicted->distance2 <= bound;
+  };
+  for (const Block& block : state_.blocks) {
+    if (block.block_kind != BlockKind::kPoint) continue;
+    const double spread2 = state_.P.diagonal().segment<2>(block.offset).sum();
+    const double own_reach_m = std::sqrt(kFirstLook2 * spread2);
+    if (std::any_of(seen.begin(), seen.end(), [&](const Sighting& sighting) {
+          return sighting.measurement->kind == block.landmark_kind &&
+                 !sighting.isFarFrom(state_.values(block), own_reach_m) &&
+                 mayBe(block, *sighting.measurement);
+        }))
+      near.push_back(block.id);
   }
-  return sightings;
+  return near;
 }
-
-}  // namespace
 
 std::vector<LandmarkId> EkfSlam::restingNear(std::span<const Measurement> measurements) const {
   std::vector<LandmarkId> near;
@@ -140,23 +199,15 @@ std::vector<LandmarkId> EkfSlam::restingNear(std::span<const Measurement> measur
     const Eigen::LLT<Eigen::MatrixXd> llt(S);
     return llt.info() != Eigen::Success || nu.dot(llt.solve(nu)) <= bound;
   };
-  // sqrt(a + b) <= sqrt(a) + sqrt(b): what is farther than this fails the first look as well.
-  const double first_look = std::sqrt(kFirstLook2);
-  std::vector<double> reaches;
-  for (const Sighting& sighting : seen) reaches.push_back(first_look * std::sqrt(sighting.spread2));
-  const auto isFar = [&](const Eigen::Vector2d& p, double own_reach, std::size_t i) {
-    const double reach = own_reach + reaches[i];
-    return (p - seen[i].p_world).squaredNorm() > reach * reach;
-  };
   for (const Block& block : resting_.blocks()) {
     if (block.block_kind != BlockKind::kPoint) continue;
     const Eigen::Vector2d p = resting_.valueThen(block);
-    const double own_reach = (move + first_look) * std::sqrt(resting_.spread2(block));
-    bool near_one = false;
-    for (std::size_t i = 0; i < seen.size() && !near_one; ++i)
-      near_one = !isFar(p, own_reach, i) && seen[i].measurement->kind == block.landmark_kind &&
-                 mayBe(block, seen[i]);
-    if (near_one) near.push_back(block.id);
+    const double own_reach_m = (move + std::sqrt(kFirstLook2)) * std::sqrt(resting_.spread2(block));
+    if (std::any_of(seen.begin(), seen.end(), [&](const Sighting& sighting) {
+          return !sighting.isFarFrom(p, own_reach_m) &&
+                 sighting.measurement->kind == block.landmark_kind && mayBe(block, sighting);
+        }))
+      near.push_back(block.id);
   }
   return near;
 }

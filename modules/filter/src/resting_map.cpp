@@ -78,11 +78,17 @@ const Block* RestingMap::find(LandmarkId id) const {
 }
 
 void RestingMap::remove(LandmarkId id) {
-  const auto slot = slots_.find(id);
-  if (slot == slots_.end()) return;
-  for (Index i = 0; i < slot->second.size; ++i) rests_[at(slot->second.offset + i)] = false;
-  std::erase_if(blocks_, [&](const Block& block) { return block.id == id; });
-  slots_.erase(slot);
+  const Block* block = find(id);
+  if (!block) return;
+  vacate({block, 1});
+  blocks_.erase(blocks_.begin() + (block - blocks_.data()));
+}
+
+void RestingMap::vacate(std::span<const Block> leaving) {
+  for (const Block& block : leaving) {
+    for (int i = 0; i < block.size(); ++i) rests_[at(block.offset + i)] = false;
+    vacant_.emplace(block.size(), block.offset);
+  }
 }
 
 BlockVector RestingMap::moved(const Block& block,
@@ -160,12 +166,17 @@ Eigen::MatrixXd RestingMap::gain(const Passage& passage, double negligible) cons
   return lowRankFactor(C_judged, passage.Psi(), negligible).transpose();
 }
 
-void RestingMap::giveSlots(std::vector<Block>& leaving) {
-  Index size = x_.size();
-  for (Block& block : leaving) {
-    const auto [slot, fresh] = slots_.try_emplace(block.id, Slot{size, block.size()});
-    if (fresh) size += block.size();
-    block.offset = static_cast<int>(slot->second.offset);
+void RestingMap::giveSlots(std::vector<Block>& arriving) {
+  int size = static_cast<int>(x_.size());
+  for (Block& block : arriving) {
+    const auto slot = vacant_.lower_bound({block.size(), 0});
+    if (slot != vacant_.end() && slot->first == block.size()) {
+      block.offset = slot->second;
+      vacant_.erase(slot);
+    } else {
+      block.offset = size;
+      size += block.size();
+    }
   }
   x_.conservativeResize(size);
   x_transported_.conservativeResize(size);
@@ -243,14 +254,12 @@ void RestingMap::exchange(State& state, const std::vector<LandmarkId>& active, b
     columns_in.minus_owed.rightCols(At.rows()) =
         -productOfRows(C_in(Eigen::all, passage->support()), At);
 
-  // What leaves takes its slots; nothing is owed to what is written now.
+  // What leaves the state takes the slots of what enters it: the same lines of memory are read and
+  // written.
   const Indices out = indicesOf(leaving);
+  vacate(in.blocks);
   giveSlots(leaving);
   const Indices out_slots = indicesOf(leaving);
-  P_.forgive(out_slots);
-  x_(out_slots) = x_transported_(out_slots) = state.x(out);
-  variance_(out_slots) = state.P.diagonal()(out);
-  for (const Index row : in.rows) rests_[at(row)] = false;
   for (const Index row : out_slots) rests_[at(row)] = true;
 
   // The new state: the robot, and what is active in the order of birth.
@@ -296,7 +305,9 @@ void RestingMap::exchange(State& state, const std::vector<LandmarkId>& active, b
       passage->carry(C_, panel, C_support, X.data());
     }
     P_.readRows(panel, columns_in, E.data());
-    rows_in.of(panel, [&](Index row, Index i) { P_in.row(i) = E.row(row); });
+    // Of columns of former panels the rows that are given away are written already.
+    rows_in.of(panel,
+               [&](Index row, Index i) { P_in.row(i).tail(n_in - i) = E.row(row).tail(n_in - i); });
     E += X.col(2) * in.g.transpose();
     rows_out.of(panel, [&](Index row, Index i) {
       X.row(row) = state.P.row(out[at(i)]);
@@ -313,12 +324,15 @@ void RestingMap::exchange(State& state, const std::vector<LandmarkId>& active, b
   }
   C_.setCols(n);
   P_.forgive(in.rows);
+  P_.forgive(out_slots);
+  x_(out_slots) = x_transported_(out_slots) = state.x(out);
+  variance_(out_slots) = state.P.diagonal()(out);
   for (const Block& block : blocks_)
     x_.segment(block.offset, block.size()) =
         moved(block, step.middleRows(block.offset, block.size()));
 
-  P_in =
-      (0.5 * (P_in + P_in.transpose()) + in.g * in.w.transpose() + in.w * in.g.transpose()).eval();
+  P_in.triangularView<Eigen::StrictlyLower>() = P_in.transpose();
+  P_in += in.g * in.w.transpose() + in.w * in.g.transpose();
   next.P.resize(n, n);
   next.P(to_state, to_state) = state.P(from_state, from_state);
   next.P(to_entering, to_state) = in.X(Eigen::all, from_state);

@@ -59,9 +59,7 @@ void RangeBearingHypothesis::focus(const ReadingFrame& frame) {
     else
       open.push_back(reading.measurement);
   }
-  const auto near = filter.restingNear(open);
-  needed.insert(needed.end(), near.begin(), near.end());
-  filter.focus(needed);
+  filter.focus(needed, open);
 }
 
 std::vector<LandmarkId> RangeBearingHypothesis::allowed(int identity) const {
@@ -107,7 +105,10 @@ std::vector<bool> RangeBearingHypothesis::update(std::span<const Match> matches,
 void RangeBearingHypothesis::observe(LandmarkId landmark, const LandmarkReading& reading,
                                      const ReadingFrame& frame) {
   Evidence& evidence = filter.evidence(landmark);
-  if (evidence.observations == 0) evidence.first_stamp_s = frame.stamp_s;
+  if (evidence.observations == 0) {
+    evidence.first_stamp_s = frame.stamp_s;
+    on_probation_.push_back(landmark);
+  }
   evidence.last_stamp_s = frame.stamp_s;
   ++evidence.observations;
   used.push_back(landmark);
@@ -195,13 +196,15 @@ void RangeBearingHypothesis::endFrame(const ReadingFrame& frame, std::vector<Eve
   clone_of_frame_.reset();
   for (const LandmarkId id : filter.settleInverseDepths())
     events.push_back(event(frame, "settled", id, "inverse depth to x, y"));
-  std::vector<LandmarkId> stale;
-  for (const Block& block : filter.state().blocks)
-    if (block.isLandmark() && block.evidence.observations < options_->probation_sightings &&
-        frame.stamp_s - block.evidence.last_stamp_s > options_->probation_s &&
-        !identityOf(block.id))
-      stale.push_back(block.id);
-  for (const LandmarkId id : stale) {
+  std::erase_if(on_probation_, [&](const LandmarkId id) {
+    return !filter.knows(id) || identityOf(id) ||
+           filter.evidence(id).observations >= options_->probation_sightings;
+  });
+  const auto isStale = [&](const LandmarkId id) {
+    return frame.stamp_s - filter.evidence(id).last_stamp_s > options_->probation_s;
+  };
+  for (const LandmarkId id : on_probation_) {
+    if (!isStale(id)) continue;
     events.push_back(event(frame, "purged", id, "too few sightings"));
     forget(id);
   }

@@ -91,6 +91,7 @@ class RangeBearingHypothesis {
   std::map<int, LandmarkId> landmark_of_identity_;
   std::map<LandmarkId, int> identity_of_landmark_;
   std::map<LandmarkId, int> strikes_;
+  std::vector<LandmarkId> on_probation_;  ///< born of a reading, seen seldom since
   std::vector<LandmarkId> refused_in_a_row_;
   std::map<int, FirstBearing> first_bearings_;
   std::optional<LandmarkId> clone_of_frame_;

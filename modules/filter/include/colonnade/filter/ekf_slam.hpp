@@ -124,11 +124,12 @@ class EkfSlam {
   InnovationHealth& health() { return health_; }
   const FilterOptions& options() const { return options_; }
 
-  /// Lets the landmarks around the robot be worked with, and those of `needed` with them, while
-  /// the others rest (RestingMap): what is active grows to twice `active_landmarks` before
-  /// anything rests. Without need nothing happens. state(), updates and gates know active
-  /// landmarks only.
-  void focus(std::span<const LandmarkId> needed);
+  /// Lets the landmarks around the robot's way be worked with, and with them those of `needed` and
+  /// the points that one of `open` (measurements with range) may be of, while the others rest
+  /// (RestingMap): what is active grows to twice `active_landmarks` before anything rests. Without
+  /// need nothing happens. state(), updates and gates know active landmarks only.
+  void focus(std::span<const LandmarkId> needed, std::span<const Measurement> open = {});
+  bool knows(LandmarkId landmark) const { return state_.find(landmark) || isResting(landmark); }
   bool isResting(LandmarkId landmark) const { return resting_.find(landmark) != nullptr; }
   /// Nothing rests until the next focus(). To be called before the heading becomes uncertain by
   /// more than motion makes it: resting points are transported when they enter, with the heading's
@@ -144,6 +145,8 @@ class EkfSlam {
 
  private:
   LandmarkId nextId() { return LandmarkId{next_id_++}; }
+  /// restingNear() of active points.
+  std::vector<LandmarkId> activeNear(std::span<const Measurement> measurements) const;
 
   FilterOptions options_;
   State state_;

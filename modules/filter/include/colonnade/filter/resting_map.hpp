@@ -3,7 +3,9 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <map>
+#include <set>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "colonnade/filter/resting_covariance.hpp"
@@ -56,10 +58,6 @@ class RestingMap {
   void remove(LandmarkId id);
 
  private:
-  struct Slot {
-    Eigen::Index offset = 0;
-    Eigen::Index size = 0;
-  };
   struct Entering;
   /// By `C`, the covariance of these blocks with the state at the last exchange.
   Entering entering(std::vector<Block> blocks, const State& state, const Eigen::MatrixXd& C) const;
@@ -67,15 +65,17 @@ class RestingMap {
   /// negligible.
   Eigen::MatrixXd gain(const Passage& passage, double negligible) const;
   /// Slots for blocks that come to rest; their offsets become those.
-  void giveSlots(std::vector<Block>& leaving);
+  void giveSlots(std::vector<Block>& arriving);
+  /// Their slots are for others.
+  void vacate(std::span<const Block> leaving);
   BlockVector moved(const Block& block, const Eigen::Ref<const Eigen::MatrixX3d>& step) const;
   /// The rows by which it is judged what is negligible: all, or some evenly spread.
   std::vector<Eigen::Index> judged(double negligible) const;
   /// How far the block's own turn G has gone at `y` since its covariance was last transported.
   BlockVector turnOfWay(const Block& block, const BlockVector& y) const;
 
-  std::vector<Block> blocks_;         ///< those that rest; offset: that of the slot
-  std::map<LandmarkId, Slot> slots_;  ///< once given, a block's for good
+  std::vector<Block> blocks_;             ///< those that rest; offset: that of the slot
+  std::set<std::pair<int, int>> vacant_;  ///< slots by size and offset
   Eigen::VectorXd x_;
   Eigen::VectorXd x_transported_;  ///< what the covariance was last transported to
   bool invariant_ = false;         ///< whether it is transported at all
