@@ -25,7 +25,8 @@ DetectorBank::DetectorBank(const DetectorOptions& options)
       walls_(options.wall_directions, options.depth_profile),
       short_segments_(options.short_segments, options.geometry),
       segmenter_(options.segmentation),
-      memory_(options.pillar_memory) {}
+      memory_(options.pillar_memory),
+      leaves_(options.door_leaves) {}
 
 Detections DetectorBank::detect(const Frame& frame, const EdgeLines& edges,
                                 const std::optional<Pose2>& T_previous_robot) {
@@ -35,7 +36,9 @@ Detections DetectorBank::detect(const Frame& frame, const EdgeLines& edges,
   check_ = checkFrame(frame, edges);
   segmentation_ = segmenter_.segment(frame, T_previous_robot);
   if (!frame.camera.isCalibrated()) {
-    memory_.judge(all, segmentation_, T_previous_robot);  // the robot has moved on all the same
+    // The robot has moved on all the same.
+    memory_.judge(all, segmentation_, T_previous_robot);
+    leaves_.judge(all, profile_, segmentation_, T_previous_robot);
     return all;
   }
   if (check_.image_usable) {
@@ -53,6 +56,7 @@ Detections DetectorBank::detect(const Frame& frame, const EdgeLines& edges,
     append(all, short_segments_.detect(frame, edges));
   refuseSegmented(frame, segmentation_, options_.segmentation, all);
   memory_.judge(all, segmentation_, T_previous_robot);
+  leaves_.judge(all, profile_, segmentation_, T_previous_robot);
   return all;
 }
 

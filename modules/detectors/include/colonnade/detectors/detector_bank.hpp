@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "colonnade/detectors/depth_slope_detector.hpp"
+#include "colonnade/detectors/door_leaves.hpp"
 #include "colonnade/detectors/floor_edge_detector.hpp"
 #include "colonnade/detectors/frame_check.hpp"
 #include "colonnade/detectors/pillar_detector.hpp"
@@ -23,6 +24,7 @@ struct DetectorOptions {
   LineRefinementOptions lines;
   PillarOptions pillars;
   PillarMemoryOptions pillar_memory;
+  DoorLeafOptions door_leaves;
   ShadeOptions shade;
   FloorEdgeOptions floor_edges;
   DepthProfileOptions depth_profile;
@@ -37,6 +39,7 @@ struct DetectorOptions {
     take(lines);
     take(pillars);
     take(pillar_memory);
+    take(door_leaves);
     take(shade);
     take(floor_edges);
     take(depth_profile);
@@ -77,6 +80,7 @@ class DetectorBank {
   ShortSegmentDetector short_segments_;
   Segmenter segmenter_;
   PillarMemory memory_;
+  DoorLeaves leaves_;
   std::vector<WallDirection> wall_directions_;
   DepthProfile profile_;
   Segmentation segmentation_;
