@@ -100,11 +100,13 @@ bool DoorLeaves::isPlate(const Plate& plate) const {
 DoorLeaves::WallAcross DoorLeaves::wallAcross(const Plate& plate, double from_m,
                                               double to_m) const {
   constexpr double kMostTurn = radians(20.0), kTurnStep = radians(5.0);
+  constexpr int kWorthless = 3;
   WallAcross most;
-  for (double along_m = from_m; along_m <= to_m; along_m += kStep_m)
+  for (double along_m = from_m; along_m <= to_m; along_m += 2.0 * kStep_m)
     for (double turn = -kMostTurn; turn < kMostTurn + 0.5 * kTurnStep; turn += kTurnStep) {
       WallAcross wall{.along_m = along_m, .turn = turn};
-      for (int i = 0; i < kWallSamples && wall.seen + kWallSamples - i > most.seen; ++i)
+      for (int i = 0;
+           i < kWallSamples && wall.seen + kWallSamples - i > std::max(most.seen, kWorthless); ++i)
         wall.seen +=
             slices_.isSurface(wall.at(plate, options_.max_width_m - 0.15 + 0.1 * i)) ? 1 : 0;
       if (wall.seen > most.seen) most = wall;
@@ -135,7 +137,7 @@ bool DoorLeaves::isLeaf(const Plate& plate) const {
   if (!isPlate(plate)) return false;
   double end_m = 0.4;
   while (end_m <= farthest_m && !(isClear(plate, end_m) && isClear(plate, end_m + kClear_m)))
-    end_m += kStep_m;
+    end_m += 2.0 * kStep_m;
   if (end_m < options_.min_width_m || end_m > farthest_m) return false;
   const double from_m = std::max(options_.min_width_m, end_m - options_.max_jamb_m - kStep_m);
   const WallAcross wall = wallAcross(plate, from_m, end_m + kStep_m);
