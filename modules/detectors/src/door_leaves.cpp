@@ -137,7 +137,7 @@ bool DoorLeaves::isLeaf(const Plate& plate) const {
   if (!isPlate(plate)) return false;
   double end_m = 0.4;
   while (end_m <= farthest_m && !(isClear(plate, end_m) && isClear(plate, end_m + kClear_m)))
-    end_m += 2.0 * kStep_m;
+    end_m += kStep_m;
   if (end_m < options_.min_width_m || end_m > farthest_m) return false;
   const double from_m = std::max(options_.min_width_m, end_m - options_.max_jamb_m - kStep_m);
   const WallAcross wall = wallAcross(plate, from_m, end_m + kStep_m);

@@ -13,7 +13,7 @@ namespace {
 constexpr double kFree_m = 0.15;     ///< farther than what is free, along the optical axis
 constexpr double kSurface_m = 0.06;  ///< from a surface, noise and drift included
 constexpr double kNearest_m = 0.2;
-constexpr std::size_t kMostSlices = 32;
+constexpr std::size_t kMostSlices = 48;
 
 }  // namespace
 
