@@ -130,7 +130,7 @@ std::optional<FloorTracker::Placed> FloorTracker::align(
         T_robot_camera.inverse() * placed.T_key_robot.inverse().toIsometry3() * T_robot_camera_key_;
   };
   const auto equationsAt = [&](const std::vector<PhotometricPoint>& points, std::size_t level) {
-    return photometricEquations(points, current.levels[level], state, buffer);
+    return photometricEquations(points, current.levels[level], state, 0.0, buffer);
   };
   const auto normal = [&](const NormalEquations& e, double scale) {
     Matrix5 H = scale / options_.photometric_correlation * A.transpose() * e.H * A;

@@ -39,10 +39,10 @@ NormalEquations normalEquations(const std::vector<ResidualRow>& rows,
                                 std::vector<float>& magnitudes, float min_sigma, float max_sigma);
 
 /// Keeps of the twist's equations only what is really constrained: `feigned` is the information
-/// that noise of the surface normals alone would add. Along a corridor the normal matrix holds
-/// little else, and a point-to-plane fit slides there while its residual is fine. Directions are
-/// the generalised eigenvectors of both matrices; below `ratio` times the feigned information they
-/// fade out.
+/// that noise of the surface normals, or of brightness gradients, alone would add. Along a corridor
+/// the normal matrix holds little else, and a point-to-plane fit slides there while its residual is
+/// fine. Directions are the generalised eigenvectors of both matrices; below `ratio` times the
+/// feigned information they fade out.
 void suppressWeakDirections(const Matrix6& feigned, double ratio, NormalEquations& equations);
 
 }  // namespace colonnade

@@ -11,7 +11,11 @@ namespace {
 
 constexpr float kMinBrightnessSigma = 1.5f;
 constexpr float kMaxBrightnessSigma = 12.0f;
-constexpr float kMinSurfaceSigma = 1.0f;  ///< in units of the sensor's noise model
+/// Of a brightness gradient, mean of two images' central differences, where a difference of
+/// brightness has kMinBrightnessSigma: 1 / sqrt(8) of it; levels a pixel.
+constexpr float kGradientSigma = 0.53f;
+constexpr std::size_t kFeignedStride = 4;  ///< one point of so many stands for all
+constexpr float kMinSurfaceSigma = 1.0f;   ///< in units of the sensor's noise model
 constexpr float kMaxSurfaceSigma = 3.0f;
 
 /// Projection of the reference's points into the current camera.
@@ -79,16 +83,31 @@ struct FeignedInformation {
   }
 };
 
+/// Sum of J_u^T J_u + J_v^T J_v, the rows of points with a gradient of one level a pixel across and
+/// one down: what random gradients of that size would add to H.
+struct FeignedByGradients {
+  Eigen::Matrix<float, 6, 6> sum = Eigen::Matrix<float, 6, 6>::Zero();
+
+  void add(const Eigen::Vector3f& q, float fu, float fv) {
+    Eigen::Matrix<float, 6, 2> J;
+    const Eigen::Vector3f across(fu, 0.0f, -fu * q.x() / q.z());
+    const Eigen::Vector3f down(0.0f, fv, -fv * q.y() / q.z());
+    J << across, down, q.cross(across), q.cross(down);
+    sum.noalias() += J * J.transpose();
+  }
+};
+
 }  // namespace
 
 NormalEquations photometricEquations(const std::vector<PhotometricPoint>& points,
                                      const PyramidLevel& current, const AlignmentState& state,
-                                     ResidualBuffer& buffer) {
+                                     double weak_direction_ratio, ResidualBuffer& buffer) {
   const Projection projection(state, current.camera);
   const auto gain = static_cast<float>(1.0 + state.gain);
   const auto bias = static_cast<float>(state.bias);
   float shared_gradient = 0.0f;
   float reference_gradient = 1e-3f;
+  FeignedByGradients feigned;
   buffer.rows.clear();
   buffer.magnitudes.clear();
   for (const PhotometricPoint& point : points) {
@@ -111,11 +130,17 @@ NormalEquations photometricEquations(const std::vector<PhotometricPoint>& points
     ResidualRow row;
     row.r = value[0] - gain * point.brightness - bias;
     row.J << j, j_turn, -point.brightness, -1.0f;
+    if (buffer.rows.size() % kFeignedStride == 0)
+      feigned.add(q, projection.fx * inverse_z, projection.fy * inverse_z);
     buffer.rows.push_back(row);
     buffer.magnitudes.push_back(std::abs(row.r));
   }
   NormalEquations equations =
       normalEquations(buffer.rows, buffer.magnitudes, kMinBrightnessSigma, kMaxBrightnessSigma);
+  constexpr float kNoise = static_cast<float>(kFeignedStride) * kGradientSigma * kGradientSigma;
+  const Matrix6 sum = (kNoise * feigned.sum).cast<double>() + 1e-3 * Matrix6::Identity();
+  suppressWeakDirections(sum / (equations.sigma * equations.sigma), weak_direction_ratio,
+                         equations);
   equations.gradient_agreement = static_cast<double>(shared_gradient / reference_gradient);
   return equations;
 }

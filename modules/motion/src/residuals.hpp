@@ -27,10 +27,12 @@ struct ResidualBuffer {
 
 /// Brightness of the reference's points against the current image, bilinear; the gradient is the
 /// mean of both images' (as in ESM, Malis 2004). Points hidden in the current depth are left out;
-/// an uncertain depth takes weight where it would move the point along its gradient.
+/// an uncertain depth takes weight where it would move the point along its gradient. What noise of
+/// the gradients alone would tell is left out below `weak_direction_ratio` times it (0: nothing
+/// is).
 NormalEquations photometricEquations(const std::vector<PhotometricPoint>& points,
                                      const PyramidLevel& current, const AlignmentState& state,
-                                     ResidualBuffer& buffer);
+                                     double weak_direction_ratio, ResidualBuffer& buffer);
 
 /// |residual| of each point, -1 for those out of view.
 std::vector<float> brightnessResiduals(const std::vector<PhotometricPoint>& points,

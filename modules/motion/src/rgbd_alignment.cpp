@@ -33,8 +33,9 @@ class Problem {
   Parts parts(const AlignmentState& state, std::size_t level, float gate_m) {
     Parts parts;
     if (options_.use_photometric) {
-      parts.photometric = photometricEquations(reference_.photometric[level],
-                                               current_.levels[level], state, buffer_);
+      parts.photometric =
+          photometricEquations(reference_.photometric[level], current_.levels[level], state,
+                               options_.weak_direction_ratio, buffer_);
     }
     if (options_.use_surfaces) {
       parts.surfaces = surfaceEquations(reference_.surfaces, current_.levels.front(), state, gate_m,
