@@ -34,7 +34,7 @@ void DoorLeaves::move(const Pose2& T_previous_robot) {
   slices_.move(T_previous_robot);
 }
 
-DoorLeaves::Place* DoorLeaves::nearest(const Eigen::Vector2d& p_robot) {
+DoorLeaves::Place* DoorLeaves::placeNear(const Eigen::Vector2d& p_robot) {
   const auto found = std::find_if(places_.begin(), places_.end(), [&](const Place& place) {
     return (place.p_robot - p_robot).norm() < options_.gate_m;
   });
@@ -164,7 +164,7 @@ void DoorLeaves::judge(Detections& detections, const DepthProfile& profile,
     for (const int side : {-1, 1}) {
       const auto plate = plateBeside(profile, *p_robot, side);
       if (!plate || !isLeaf(*plate)) continue;
-      Place* place = nearest(*p_robot);
+      Place* place = placeNear(*p_robot);
       if (!place) {
         if (places_.size() >= kMostPlaces) places_.erase(places_.begin());
         place = &places_.emplace_back();
@@ -176,7 +176,7 @@ void DoorLeaves::judge(Detections& detections, const DepthProfile& profile,
   for (Detection& edge : detections) {
     if (!edge.accepted()) continue;
     const auto p_robot = placeOf(edge);
-    if (p_robot && nearest(*p_robot)) refuse(detections, edge, "on the leaf of an open door");
+    if (p_robot && placeNear(*p_robot)) refuse(detections, edge, "on the leaf of an open door");
   }
 }
 

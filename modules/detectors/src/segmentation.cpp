@@ -54,9 +54,12 @@ struct Segmenter::Impl {
   /// Empty where it cannot be told.
   std::vector<std::uint8_t> moving(const DepthGlimpse& now, const Frame& frame) {
     std::vector<std::uint8_t> marks(now.cells.near_m.size(), 0);
+    // After a gap in the depth a view may be older than anything it can testify to.
+    const double oldest_s = now.stamp_s - std::max(options.memory_s, 2.0 * options.long_history_s);
     std::vector<const DepthGlimpse*> all;
     for (const auto* list : {&older, &views})
-      for (const DepthGlimpse& view : *list) all.push_back(&view);
+      for (const DepthGlimpse& view : *list)
+        if (view.stamp_s >= oldest_s) all.push_back(&view);
     Background background(now, std::move(all), options);
     const DepthGlimpse* last = nullptr;
     for (const double age_s : {options.short_history_s, options.long_history_s}) {

@@ -165,8 +165,11 @@ struct CameraTracker::Impl {
     const std::vector<Eigen::Isometry3d> still{T_key_previous};
     const auto no_other = by_wheels ? std::vector<Eigen::Isometry3d>{} : still;
     Alignment both = align(*key, current, prior, no_other, alignment_options);
-    if (by_wheels && !seesTheSame(both, options))
-      both = align(*key, current, fromKey(velocity.prior(dt_s, options)), still, alignment_options);
+    if (by_wheels && !seesTheSame(both, options)) {
+      AlignmentOptions without_wheels = alignment_options;
+      without_wheels.weak_gradient_ratio = 0.0;
+      both = align(*key, current, fromKey(velocity.prior(dt_s, options)), still, without_wheels);
+    }
     const bool seen = seesTheSame(both, options);
     if (seen && !by_wheels) return refinedByStandingPart(current, prior, both);
     const bool contradicts = seen && contradictsWheels(both);
@@ -241,6 +244,8 @@ const CameraMotion& CameraTracker::track(const Frame& frame) {
   RgbdPyramid current = makePyramid(frame, kLevels);
   if (!is_first) {
     self.by_wheels = self.byWheels(frame, dt_s);
+    self.alignment_options.weak_gradient_ratio =
+        self.by_wheels ? self.options.weak_direction_ratio : 0.0;
     if (self.alignTo(current, dt_s)) {
       self.coasted_s = 0.0;
     } else {

@@ -70,7 +70,7 @@ void suppressWeakDirections(const Matrix6& feigned, double ratio, NormalEquation
   equations.H.topLeftCorner<6, 6>() =
       W * keep.cwiseProduct(eigen.eigenvalues()).asDiagonal() * W.transpose();
   const Eigen::Matrix<double, 6, 2> across = equations.H.topRightCorner<6, 2>();
-  equations.H.topRightCorner<6, 2>() = W * keep.cwiseSqrt().asDiagonal() * (V.transpose() * across);
+  equations.H.topRightCorner<6, 2>() = W * keep.asDiagonal() * (V.transpose() * across);
   equations.H.bottomLeftCorner<2, 6>() = equations.H.topRightCorner<6, 2>().transpose();
   equations.g.head<6>() = W * keep.cwiseProduct(V.transpose() * equations.g.head<6>());
 }

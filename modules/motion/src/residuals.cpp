@@ -13,7 +13,7 @@ constexpr float kMinBrightnessSigma = 1.5f;
 constexpr float kMaxBrightnessSigma = 12.0f;
 /// Of a brightness gradient, mean of two images' central differences, where a difference of
 /// brightness has kMinBrightnessSigma: 1 / sqrt(8) of it; levels a pixel.
-constexpr float kGradientSigma = 0.53f;
+constexpr double kGradientSigma = 0.53;
 constexpr std::size_t kFeignedStride = 4;  ///< one point of so many stands for all
 constexpr float kMinSurfaceSigma = 1.0f;   ///< in units of the sensor's noise model
 constexpr float kMaxSurfaceSigma = 3.0f;
@@ -137,9 +137,10 @@ NormalEquations photometricEquations(const std::vector<PhotometricPoint>& points
   }
   NormalEquations equations =
       normalEquations(buffer.rows, buffer.magnitudes, kMinBrightnessSigma, kMaxBrightnessSigma);
-  constexpr float kNoise = static_cast<float>(kFeignedStride) * kGradientSigma * kGradientSigma;
-  const Matrix6 sum = (kNoise * feigned.sum).cast<double>() + 1e-3 * Matrix6::Identity();
-  suppressWeakDirections(sum / (equations.sigma * equations.sigma), weak_direction_ratio,
+  constexpr double kNoise = static_cast<double>(kFeignedStride) * kGradientSigma * kGradientSigma;
+  Matrix6 noise = kNoise * feigned.sum.cast<double>();
+  noise += (1e-3 + 1e-6 * noise.trace()) * Matrix6::Identity();
+  suppressWeakDirections(noise / (equations.sigma * equations.sigma), weak_direction_ratio,
                          equations);
   equations.gradient_agreement = static_cast<double>(shared_gradient / reference_gradient);
   return equations;

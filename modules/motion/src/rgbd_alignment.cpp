@@ -35,7 +35,7 @@ class Problem {
     if (options_.use_photometric) {
       parts.photometric =
           photometricEquations(reference_.photometric[level], current_.levels[level], state,
-                               options_.weak_direction_ratio, buffer_);
+                               options_.weak_gradient_ratio, buffer_);
     }
     if (options_.use_surfaces) {
       parts.surfaces = surfaceEquations(reference_.surfaces, current_.levels.front(), state, gate_m,

@@ -19,6 +19,9 @@ struct AlignmentOptions {
   /// Surface directions are used where they hold this many times the information that the noise of
   /// the normals alone would feign.
   double weak_direction_ratio = 4.0;
+  /// The same of brightness and the noise of its gradients; 0: used all the same. For where the
+  /// prior knows weak directions better, as wheels do and a former velocity does not.
+  double weak_gradient_ratio = 0.0;
 };
 
 /// A frame prepared to be aligned to.

@@ -78,7 +78,7 @@ class DoorLeaves {
   static constexpr int kWallSamples = 7;
 
   void move(const Pose2& T_previous_robot);
-  Place* nearest(const Eigen::Vector2d& p_robot);
+  Place* placeNear(const Eigen::Vector2d& p_robot);
   bool isLeaf(const Plate& plate) const;
   bool isPlate(const Plate& plate) const;
   bool isClear(const Plate& plate, double along_m) const;
