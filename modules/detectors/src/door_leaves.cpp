@@ -15,31 +15,12 @@ namespace {
 constexpr double kStep_m = 0.05;
 constexpr std::size_t kMostPlaces = 100;
 
-std::optional<Eigen::Vector2d> placeOf(const Detection& edge) {
-  if (edge.kind() != LandmarkKind::kPillarEdge || edge.range_m <= 0.0) return std::nullopt;
-  const Measurement& m = edge.measurement;
-  return m.p_robot_camera + edge.range_m * Eigen::Vector2d(std::cos(m.z[0]), std::sin(m.z[0]));
-}
-
 }  // namespace
 
-void DoorLeaves::move(const Pose2& T_previous_robot) {
-  const Pose2 T_robot_previous = T_previous_robot.inverse();
-  const double way_m = T_previous_robot.translation().norm();
-  for (Place& place : places_) {
-    place.p_robot = transform(T_robot_previous, place.p_robot);
-    place.way_m += way_m;
-  }
-  std::erase_if(places_, [&](const Place& place) { return place.way_m > options_.max_way_m; });
-  slices_.move(T_previous_robot);
-}
-
-DoorLeaves::Place* DoorLeaves::placeNear(const Eigen::Vector2d& p_robot) {
-  const auto found = std::find_if(places_.begin(), places_.end(), [&](const Place& place) {
-    return (place.p_robot - p_robot).norm() < options_.gate_m;
-  });
-  return found == places_.end() ? nullptr : &*found;
-}
+DoorLeaves::DoorLeaves(const DoorLeafOptions& options)
+    : options_(options),
+      slices_(options.max_way_m),
+      places_(options.gate_m, options.max_way_m, kMostPlaces) {}
 
 /// The surface that begins in the slice beside an edge, on its left (-1) or right (+1).
 std::optional<DoorLeaves::Plate> DoorLeaves::plateBeside(const DepthProfile& profile,
@@ -150,7 +131,8 @@ void DoorLeaves::judge(Detections& detections, const DepthProfile& profile,
                        const std::optional<Pose2>& T_previous_robot) {
   if (!options_.enabled) return;
   if (T_previous_robot) {
-    move(*T_previous_robot);
+    slices_.move(*T_previous_robot);
+    places_.move(*T_previous_robot);
   } else {
     slices_.clear();
     places_.clear();
@@ -164,19 +146,15 @@ void DoorLeaves::judge(Detections& detections, const DepthProfile& profile,
     for (const int side : {-1, 1}) {
       const auto plate = plateBeside(profile, *p_robot, side);
       if (!plate || !isLeaf(*plate)) continue;
-      Place* place = placeNear(*p_robot);
-      if (!place) {
-        if (places_.size() >= kMostPlaces) places_.erase(places_.begin());
-        place = &places_.emplace_back();
-      }
-      *place = {*p_robot, 0.0};
+      places_.sight(*p_robot);
       break;
     }
   }
   for (Detection& edge : detections) {
     if (!edge.accepted()) continue;
     const auto p_robot = placeOf(edge);
-    if (p_robot && placeNear(*p_robot)) refuse(detections, edge, "on the leaf of an open door");
+    if (p_robot && places_.nearest(*p_robot))
+      refuse(detections, edge, "on the leaf of an open door");
   }
 }
 

@@ -3,7 +3,6 @@
 #include "colonnade/detectors/pillar_memory.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace colonnade {
 namespace {
@@ -11,25 +10,10 @@ namespace {
 constexpr int kMostSights = 20;  ///< then both counts are halved
 constexpr std::size_t kMostPlaces = 500;
 
-std::optional<Eigen::Vector2d> placeOf(const Detection& edge) {
-  if (edge.kind() != LandmarkKind::kPillarEdge || edge.range_m <= 0.0) return std::nullopt;
-  const Measurement& m = edge.measurement;
-  return m.p_robot_camera + edge.range_m * Eigen::Vector2d(std::cos(m.z[0]), std::sin(m.z[0]));
-}
-
 }  // namespace
 
-PillarMemory::Place* PillarMemory::nearest(const Eigen::Vector2d& p_robot) {
-  Place* found = nullptr;
-  double least_m = options_.gate_m;
-  for (Place& place : places_) {
-    const double apart_m = (place.p_robot - p_robot).norm();
-    if (apart_m >= least_m) continue;
-    least_m = apart_m;
-    found = &place;
-  }
-  return found;
-}
+PillarMemory::PillarMemory(const PillarMemoryOptions& options)
+    : options_(options), places_(options.gate_m, options.max_way_m, kMostPlaces) {}
 
 /// The lower part of a pillar may be brighter than the floor behind it and the upper one darker
 /// than the wall: two edges, of which the lower one ends.
@@ -43,21 +27,11 @@ bool PillarMemory::goesOnAbove(const Detections& detections, const Detection& lo
   });
 }
 
-void PillarMemory::move(const Pose2& T_previous_robot) {
-  const Pose2 T_robot_previous = T_previous_robot.inverse();
-  const double way_m = T_previous_robot.translation().norm();
-  for (Place& place : places_) {
-    place.p_robot = transform(T_robot_previous, place.p_robot);
-    place.way_m += way_m;
-  }
-  std::erase_if(places_, [&](const Place& place) { return place.way_m > options_.max_way_m; });
-}
-
 void PillarMemory::judge(Detections& detections, const Segmentation& segmentation,
                          const std::optional<Pose2>& T_previous_robot) {
   if (!options_.enabled) return;
   if (T_previous_robot)
-    move(*T_previous_robot);
+    places_.move(*T_previous_robot);
   else
     places_.clear();
   // What this frame shows, before anything is refused from memory.
@@ -77,25 +51,16 @@ void PillarMemory::judge(Detections& detections, const Segmentation& segmentatio
   for (Detection& edge : detections) {
     if (!edge.accepted() || edge.height != UprightHeight::kUnknown) continue;
     const auto p_robot = placeOf(edge);
-    const Place* const place = p_robot ? nearest(*p_robot) : nullptr;
-    if (!place || place->low <= place->tall) continue;
+    const auto* const place = p_robot ? places_.nearest(*p_robot) : nullptr;
+    if (!place || place->seen.low <= place->seen.tall) continue;
     refuse(detections, edge, "was too low for a part of the building");
   }
   for (const Sight& sight : sights) {
-    Place* place = nearest(sight.p_robot);
-    if (!place) {
-      if (places_.size() >= kMostPlaces)
-        places_.erase(
-            std::max_element(places_.begin(), places_.end(),
-                             [](const Place& a, const Place& b) { return a.way_m < b.way_m; }));
-      place = &places_.emplace_back();
-    }
-    place->p_robot = sight.p_robot;
-    place->way_m = 0.0;
-    ++(sight.low ? place->low : place->tall);
-    if (place->low + place->tall <= kMostSights) continue;
-    place->low /= 2;
-    place->tall /= 2;
+    Heights& heights = places_.sight(sight.p_robot);
+    ++(sight.low ? heights.low : heights.tall);
+    if (heights.low + heights.tall <= kMostSights) continue;
+    heights.low /= 2;
+    heights.tall /= 2;
   }
 }
 

@@ -25,7 +25,8 @@ void SliceMemory::add(const DepthProfile& profile) {
     const Slice& latest = slices_.back();
     const double along =  // cosine of the turn between them
         kept.R_robot_slice.col(1).dot(latest.R_robot_slice.col(1));
-    if (kept.way_m - latest.way_m < kApart_m && along > std::cos(kTurn)) slices_.pop_back();
+    const double apart_m = (kept.p_robot_camera - latest.p_robot_camera).norm();
+    if (apart_m < kApart_m && along > std::cos(kTurn)) slices_.pop_back();
   }
   if (slices_.size() >= kMostSlices) slices_.erase(slices_.begin());
   Slice& slice = slices_.emplace_back();

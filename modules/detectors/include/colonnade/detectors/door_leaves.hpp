@@ -4,12 +4,12 @@
 
 #include <cmath>
 #include <optional>
-#include <vector>
 
 #include "colonnade/base/options.hpp"
 #include "colonnade/base/pose2.hpp"
 #include "colonnade/detectors/depth_profile.hpp"
 #include "colonnade/detectors/detection.hpp"
+#include "colonnade/detectors/places_around.hpp"
 #include "colonnade/detectors/segmentation.hpp"
 #include "colonnade/detectors/slice_memory.hpp"
 
@@ -43,8 +43,7 @@ struct DoorLeafOptions {
 /// room.
 class DoorLeaves {
  public:
-  explicit DoorLeaves(const DoorLeafOptions& options = {})
-      : options_(options), slices_(options.max_way_m) {}
+  explicit DoorLeaves(const DoorLeafOptions& options = {});
 
   /// Refuses accepted pillar edges with a range on leaves seen in this frame or before.
   /// T_previous_robot: how the robot moved since the frame given before; nothing where that is not
@@ -53,10 +52,7 @@ class DoorLeaves {
              const std::optional<Pose2>& T_previous_robot);
 
  private:
-  struct Place {
-    Eigen::Vector2d p_robot;  ///< of the free edge
-    double way_m = 0.0;       ///< since the last sight
-  };
+  struct Leaf {};  ///< nothing but that it was seen
   /// A surface that ends in an edge.
   struct Plate {
     Eigen::Vector2d p_robot;  ///< the end
@@ -77,8 +73,6 @@ class DoorLeaves {
   };
   static constexpr int kWallSamples = 7;
 
-  void move(const Pose2& T_previous_robot);
-  Place* placeNear(const Eigen::Vector2d& p_robot);
   bool isLeaf(const Plate& plate) const;
   bool isPlate(const Plate& plate) const;
   bool isClear(const Plate& plate, double along_m) const;
@@ -89,7 +83,7 @@ class DoorLeaves {
 
   DoorLeafOptions options_;
   SliceMemory slices_;
-  std::vector<Place> places_;
+  PlacesAround<Leaf> places_;  ///< of free edges
 };
 
 }  // namespace colonnade

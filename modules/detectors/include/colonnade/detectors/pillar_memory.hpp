@@ -3,11 +3,11 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
 #include "colonnade/base/options.hpp"
 #include "colonnade/base/pose2.hpp"
 #include "colonnade/detectors/detection.hpp"
+#include "colonnade/detectors/places_around.hpp"
 #include "colonnade/detectors/segmentation.hpp"
 
 namespace colonnade {
@@ -30,7 +30,7 @@ struct PillarMemoryOptions {
 /// it is not. The places of edges are carried along by the robot's motion.
 class PillarMemory {
  public:
-  explicit PillarMemory(const PillarMemoryOptions& options = {}) : options_(options) {}
+  explicit PillarMemory(const PillarMemoryOptions& options = {});
 
   /// Refuses accepted pillar edges whose height this frame does not show where more often low ones
   /// than tall ones were seen, then takes in what it does show, except on what moves.
@@ -40,18 +40,14 @@ class PillarMemory {
              const std::optional<Pose2>& T_previous_robot);
 
  private:
-  struct Place {
-    Eigen::Vector2d p_robot;
+  struct Heights {
     int low = 0, tall = 0;  ///< sights
-    double way_m = 0.0;     ///< since the last one
   };
-  Place* nearest(const Eigen::Vector2d& p_robot);
   bool goesOnAbove(const Detections& detections, const Detection& low,
                    const Eigen::Vector2d& p_robot) const;
-  void move(const Pose2& T_previous_robot);
 
   PillarMemoryOptions options_;
-  std::vector<Place> places_;
+  PlacesAround<Heights> places_;
 };
 
 }  // namespace colonnade
