@@ -229,6 +229,83 @@ TEST_F(AssociationTest, EachKindHasItsOwnGate) {
   EXPECT_EQ(1u, match({off}, narrow).matches.size());
 }
 
+/// A floor edge across the way, `distance_m` ahead; +1: brighter beyond it.
+Detection edgeAhead(double distance_m, int gradient_sign) {
+  Detection d;
+  d.measurement.kind = LandmarkKind::kFloorEdge;
+  d.measurement.z.resize(2);
+  d.measurement.z << 0.0, distance_m;
+  d.measurement.R = Eigen::Vector2d(radians(0.5), 0.02).cwiseAbs2().asDiagonal();
+  d.p_robot_a = {distance_m, 1.0};
+  d.p_robot_b = {distance_m, -1.0};
+  d.appearance.gradient_sign = gradient_sign;
+  d.appearance.left = Eigen::Vector3f::Constant(gradient_sign < 0 ? 180.0F : 60.0F);
+  d.appearance.right = Eigen::Vector3f::Constant(gradient_sign < 0 ? 60.0F : 180.0F);
+  return d;
+}
+
+/// A floor edge 2 m ahead, seen ten times, then the robot beyond it, 0.2 m unsure, looking back.
+class FloorEdgeFromBothSides : public AssociationTest {
+ protected:
+  void learnAndPass(const std::vector<int>& gradient_signs) {
+    for (std::size_t i = 0; i < gradient_signs.size(); ++i) {
+      const Detection detection = edgeAhead(2.0, gradient_signs[i]);
+      if (i == 0) ids_.push_back(*filter_.addLandmark(detection.measurement));
+      const Match match{ids_[0], detection.measurement};
+      if (i > 0) filter_.update({&match, 1});
+      book_.observe(ids_[0], detection, 0.1 * static_cast<double>(i), filter_);
+    }
+    filter_.predict({3.0, 0.0, kPi}, Eigen::Vector3d(0.04, 0.04, 1e-4).asDiagonal());
+  }
+};
+
+TEST_F(FloorEdgeFromBothSides, ALineOnTheFloorIsKnownAgain) {
+  learnAndPass({-1, -1, -1, -1, -1});
+  const Association association = match({edgeAhead(0.95, 1)}, jcbb());
+  ASSERT_EQ(1u, association.matches.size());
+  EXPECT_EQ(ids_[0], association.matches[0].landmark);
+}
+
+TEST_F(FloorEdgeFromBothSides, TheFootOnTheOtherSideOfAWallIsAnother) {
+  // From either side the skirting is the dark one, and beyond.
+  learnAndPass({-1, -1, -1, -1, -1});
+  const Association association = match({edgeAhead(0.76, -1)}, jcbb());
+  EXPECT_TRUE(association.matches.empty());
+  EXPECT_FALSE(association.near_landmark[0]);  // it may found one
+}
+
+TEST_F(FloorEdgeFromBothSides, LandmarksFoundedFromOppositeSidesAreComparedInOneWay) {
+  learnAndPass({-1, -1, -1});
+  const auto founded = [&](int gradient_sign) {
+    const Detection detection = edgeAhead(1.0, gradient_sign);
+    const LandmarkId id = *filter_.addLandmark(detection.measurement);
+    for (int i = 0; i < 3; ++i) book_.observe(id, detection, 1.0, filter_);
+    return id;
+  };
+  const LandmarkId line = founded(1), foot = founded(-1);
+  EXPECT_TRUE(book_.lookAlike(ids_[0], line, filter_.state()));
+  EXPECT_FALSE(book_.lookAlike(ids_[0], foot, filter_.state()));
+  EXPECT_TRUE(book_.lookAlike(foot, foot, filter_.state()));
+  EXPECT_LT(*book_.colourDistance(ids_[0], line, filter_.state()),
+            *book_.colourDistance(ids_[0], foot, filter_.state()));
+  book_.merge(ids_[0], line, filter_.state());
+  EXPECT_TRUE(book_.looks(ids_[0])->hasDarkSide());
+  EXPECT_EQ(6, book_.looks(ids_[0])->sightings());
+}
+
+TEST_F(FloorEdgeFromBothSides, AThinLineHasNoDarkSide) {
+  learnAndPass({-1, 1, -1, 1, -1, 1});
+  EXPECT_EQ(1u, match({edgeAhead(0.95, 1)}, jcbb()).matches.size());
+  EXPECT_EQ(1u, match({edgeAhead(0.95, -1)}, jcbb()).matches.size());
+}
+
+TEST_F(FloorEdgeFromBothSides, SightingsFromEitherSideAddUp) {
+  learnAndPass({-1, -1, -1});
+  for (int i = 0; i < 20; ++i) book_.observe(ids_[0], edgeAhead(1.0, 1), 1.0, filter_);
+  EXPECT_TRUE(book_.looks(ids_[0])->hasDarkSide());
+  EXPECT_EQ(1u, match({edgeAhead(0.95, 1)}, jcbb()).matches.size());
+}
+
 TEST_F(AssociationTest, TheSearchIsBounded) {
   std::vector<Eigen::Vector2d> crowd;
   for (int i = 0; i < 30; ++i) crowd.emplace_back(3.0 + 0.01 * i, 0.02 * i);

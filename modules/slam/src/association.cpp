@@ -48,7 +48,7 @@ Nearby lookAround(std::size_t index, const Detection& detection, const EkfSlam& 
   for (const Block& block : filter.state().blocks) {
     if (!block.isLandmark() || block.evidence.hypothesis ||
         block.landmark_kind != detection.kind() || book.isAsleep(block.id) ||
-        !book.looksLike(block.id, detection))
+        !book.looksLike(block, detection, filter))
       continue;
     if (block.block_kind == BlockKind::kFloorLine &&
         gapAlong(block, filter, detection) > options.floor_edge_gap_m)
@@ -64,7 +64,8 @@ Nearby lookAround(std::size_t index, const Detection& detection, const EkfSlam& 
     if (const LandmarkLooks* former = book.looks(block.id);
         former && options.looks_probability < 1.0) {
       const auto difference =
-          former->difference(detection, options.colour_sigma, options.width_sigma);
+          former->difference(LandmarkBook::fromFirstSide(block, detection, filter),
+                             options.colour_sigma, options.width_sigma);
       looks = difference.distance2;
       if (difference.numbers > 0 &&
           looks > chiSquareQuantile(options.looks_probability, difference.numbers)) {

@@ -70,7 +70,7 @@ Pairs pairUp(const std::vector<LandmarkId>& sleeping, const std::vector<Landmark
   const double gate = chiSquareQuantile(kPairProbability, 2);
   for (const LandmarkId now : recent) {
     for (const LandmarkId then : sleeping) {
-      if (!book.lookAlike(then, now) || book.seenTogether(then, now)) continue;
+      if (!book.lookAlike(then, now, state) || book.seenTogether(then, now)) continue;
       const auto d = differenceOf(state, {then, now});
       if (!d || (d->is_line && !overlap(state, {then, now}, *d))) continue;
       const Eigen::Matrix2d C = filter.covarianceOf(stacked({&*d, 1})) +
@@ -231,7 +231,7 @@ Constellation describe(const Pairs& pairs, const std::vector<std::size_t>& membe
   std::vector<double> own, others;
   for (const Twins& one : coloured)
     for (const Twins& other : coloured)
-      if (const auto levels = book.colourDistance(one.kept, other.twin))
+      if (const auto levels = book.colourDistance(one.kept, other.twin, filter.state()))
         (one.kept == other.kept ? own : others).push_back(*levels);
   if (own.size() >= 3) {
     c.colour_levels = median(own);

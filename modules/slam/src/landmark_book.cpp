@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "colonnade/base/angle.hpp"
 
 namespace colonnade {
 namespace {
@@ -20,6 +23,13 @@ void widenExtent(const Block& block, const EkfSlam& filter, const Detection& det
   const bool is_first = evidence.observations == 0;
   evidence.along_min_m = std::min({is_first ? a : evidence.along_min_m, a, b});
   evidence.along_max_m = std::max({is_first ? a : evidence.along_max_m, a, b});
+}
+
+/// The normal of a floor edge points away from where it was first seen.
+bool isSeenFromOtherSide(const Block& block, const Detection& detection, const EkfSlam& filter) {
+  if (block.block_kind != BlockKind::kFloorLine) return false;
+  const double normal = filter.state().values(block)(2) - filter.pose().phi;
+  return std::abs(wrapAngle(detection.measurement.z(0) - normal)) > 0.5 * kPi;
 }
 
 constexpr int kPairSightings = 3;
@@ -40,7 +50,7 @@ void LandmarkBook::observe(LandmarkId landmark, const Detection& detection, doub
   else if (way_m_ - page.last_m > kLongWay_m)
     page.returned_m = way_m_;
   page.last_m = way_m_;
-  page.looks.observe(detection);
+  page.looks.observe(fromFirstSide(block, detection, filter));
 }
 
 LandmarkBook::Seen LandmarkBook::seenOnWay(LandmarkId landmark) const {
@@ -88,26 +98,38 @@ bool LandmarkBook::seenTogether(LandmarkId a, LandmarkId b) const {
   return page != pages_.end() && page->second.company.contains(b);
 }
 
-bool LandmarkBook::lookAlike(LandmarkId a, LandmarkId b) const {
-  const auto one = pages_.find(a), other = pages_.find(b);
-  if (one == pages_.end() || other == pages_.end()) return true;
-  return one->second.looks.sameDarkSide(other->second.looks);
+LandmarkLooks LandmarkBook::looksInAxesOf(LandmarkId like, LandmarkId of,
+                                          const State& state) const {
+  const LandmarkLooks& looks = pages_.at(of).looks;
+  const Block* a = state.find(like);
+  const Block* b = state.find(of);
+  const bool opposite = a && b && a->block_kind == BlockKind::kFloorLine &&
+                        b->block_kind == BlockKind::kFloorLine &&
+                        std::cos(state.values(*a)(2) - state.values(*b)(2)) < 0.0;
+  return opposite ? looks.fromOtherSide() : looks;
 }
 
-std::optional<double> LandmarkBook::colourDistance(LandmarkId a, LandmarkId b) const {
+bool LandmarkBook::lookAlike(LandmarkId a, LandmarkId b, const State& state) const {
+  const auto one = pages_.find(a);
+  if (one == pages_.end() || !pages_.contains(b)) return true;
+  return one->second.looks.sameDarkSide(looksInAxesOf(a, b, state));
+}
+
+std::optional<double> LandmarkBook::colourDistance(LandmarkId a, LandmarkId b,
+                                                   const State& state) const {
   const auto one = pages_.find(a), other = pages_.find(b);
   if (one == pages_.end() || other == pages_.end() || one->second.looks.sightings() == 0 ||
       other->second.looks.sightings() == 0)
     return std::nullopt;
-  return one->second.looks.colourDistance(other->second.looks);
+  return one->second.looks.colourDistance(looksInAxesOf(a, b, state));
 }
 
-void LandmarkBook::merge(LandmarkId kept, LandmarkId twin) {
+void LandmarkBook::merge(LandmarkId kept, LandmarkId twin, const State& state) {
   const auto from = pages_.find(twin);
   if (from == pages_.end()) return;
   const Page other = from->second;
   Page& page = pages_[kept];
-  page.looks.merge(other.looks);
+  page.looks.merge(looksInAxesOf(kept, twin, state));
   page.first_m = std::min(page.first_m, other.first_m);
   page.last_m = std::max(page.last_m, other.last_m);
   for (const auto& [id, count] : other.partners)
@@ -136,10 +158,23 @@ void LandmarkBook::forget(LandmarkId landmark) {
   }
 }
 
-bool LandmarkBook::looksLike(LandmarkId landmark, const Detection& detection) const {
-  const auto page = pages_.find(landmark);
-  if (page == pages_.end() || detection.kind() != LandmarkKind::kPillarEdge) return true;
-  return page->second.looks.sameDarkSide(detection);
+bool LandmarkBook::looksLike(const Block& landmark, const Detection& detection,
+                             const EkfSlam& filter) const {
+  const auto page = pages_.find(landmark.id);
+  if (page == pages_.end()) return true;
+  const LandmarkLooks& looks = page->second.looks;
+  if (detection.kind() == LandmarkKind::kPillarEdge) return looks.sameDarkSide(detection);
+  return !isSeenFromOtherSide(landmark, detection, filter) || !looks.hasDarkSide() ||
+         looks.sameDarkSide(fromFirstSide(landmark, detection, filter));
+}
+
+Detection LandmarkBook::fromFirstSide(const Block& landmark, const Detection& detection,
+                                      const EkfSlam& filter) {
+  Detection seen = detection;
+  if (!isSeenFromOtherSide(landmark, detection, filter)) return seen;
+  seen.appearance.gradient_sign *= -1;
+  std::swap(seen.appearance.left, seen.appearance.right);
+  return seen;
 }
 
 const LandmarkLooks* LandmarkBook::looks(LandmarkId landmark) const {

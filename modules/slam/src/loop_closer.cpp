@@ -23,7 +23,7 @@ bool hasDouble(const Block& block, double near_m, const State& state, const Land
     return other.id != block.id && other.block_kind == BlockKind::kPoint &&
            other.landmark_kind == block.landmark_kind &&
            (state.x.segment<2>(other.offset) - p).norm() < near_m &&
-           book.lookAlike(block.id, other.id);
+           book.lookAlike(block.id, other.id, state);
   });
 }
 

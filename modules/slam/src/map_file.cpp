@@ -14,7 +14,7 @@ namespace colonnade {
 namespace {
 
 constexpr const char* kMagic = "colonnade-map";
-constexpr const char* kVersion = "1";
+constexpr const char* kVersion = "2";
 
 /// FNV-1a, 64 bits (Fowler, Noll, Vo; RFC 9923): finds damage, not malice.
 std::string checksum(std::string_view text) {

@@ -128,7 +128,7 @@ bool fuse(std::span<const Twins> twins, const TwinNoise& noise, EkfSlam& filter,
     evidence.observations += twin.evidence.observations;
     evidence.first_stamp_s = std::min(evidence.first_stamp_s, twin.evidence.first_stamp_s);
     evidence.last_stamp_s = std::max(evidence.last_stamp_s, twin.evidence.last_stamp_s);
-    book.merge(pair.kept, pair.twin);
+    book.merge(pair.kept, pair.twin, filter.state());
     filter.remove(pair.twin);
   }
   return true;

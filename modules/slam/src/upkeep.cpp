@@ -139,8 +139,8 @@ std::vector<Twins> Upkeep::findTwins(const EkfSlam& filter, const LandmarkBook& 
       if (twin.block_kind != BlockKind::kPoint || twin.landmark_kind != kept.landmark_kind ||
           (state.values(twin) - state.values(kept)).norm() > options_.merge_distance_m ||
           book.isAsleep(twin.id) || book.seenTogether(kept.id, twin.id) ||
-          !book.lookAlike(kept.id, twin.id) || used.contains(kept.id) || used.contains(twin.id) ||
-          filter.isFixed(twin.id))
+          !book.lookAlike(kept.id, twin.id, state) || used.contains(kept.id) ||
+          used.contains(twin.id) || filter.isFixed(twin.id))
         continue;
       const auto d = differenceOf(state, {kept.id, twin.id});
       if (!d) continue;

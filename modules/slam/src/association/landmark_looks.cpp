@@ -3,6 +3,7 @@
 #include "colonnade/slam/landmark_looks.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace colonnade {
 namespace {
@@ -29,6 +30,13 @@ void LandmarkLooks::observe(const Detection& detection) {
 
 bool LandmarkLooks::sameDarkSide(const Detection& detection) const {
   return gradient_balance_ * detection.appearance.gradient_sign >= 0;
+}
+
+LandmarkLooks LandmarkLooks::fromOtherSide() const {
+  LandmarkLooks looks = *this;
+  looks.gradient_balance_ = -gradient_balance_;
+  std::swap(looks.left_, looks.right_);
+  return looks;
 }
 
 double LandmarkLooks::colourDistance(const LandmarkLooks& other) const {

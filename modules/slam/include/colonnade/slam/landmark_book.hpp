@@ -22,7 +22,7 @@ class LandmarkBook {
   void observePair(LandmarkId a, LandmarkId b);
   void forget(LandmarkId landmark);
   /// All that is known of `twin` is known of `kept` from now on.
-  void merge(LandmarkId kept, LandmarkId twin);
+  void merge(LandmarkId kept, LandmarkId twin, const State& state);
 
   /// The robot has driven on; observations are dated by the way driven.
   void drive(double distance_m) { way_m_ += distance_m; }
@@ -52,12 +52,18 @@ class LandmarkBook {
   bool seenTogether(LandmarkId a, LandmarkId b) const;
   void observeTogether(const std::vector<LandmarkId>& landmarks);
   /// Whether both may be the same by their looks.
-  bool lookAlike(LandmarkId a, LandmarkId b) const;
+  bool lookAlike(LandmarkId a, LandmarkId b, const State& state) const;
   /// How far their colours are apart, in gray levels; nothing when one has never been looked at.
-  std::optional<double> colourDistance(LandmarkId a, LandmarkId b) const;
+  std::optional<double> colourDistance(LandmarkId a, LandmarkId b, const State& state) const;
 
-  /// Whether a detection can be this landmark by its looks: a vertical edge keeps its dark side.
-  bool looksLike(LandmarkId landmark, const Detection& detection) const;
+  /// Whether a detection can be this landmark by its looks: a vertical edge keeps its dark side,
+  /// and so does a floor edge that is seen from the other side. The foot of a wall does not: that
+  /// is the foot on the wall's other side.
+  bool looksLike(const Block& landmark, const Detection& detection, const EkfSlam& filter) const;
+  /// How the detection would look from the side of a floor edge's first sighting; others as they
+  /// are.
+  static Detection fromFirstSide(const Block& landmark, const Detection& detection,
+                                 const EkfSlam& filter);
 
   /// nullptr for a landmark never observed.
   const LandmarkLooks* looks(LandmarkId landmark) const;
@@ -67,6 +73,8 @@ class LandmarkBook {
   void fillPairs(LandmarkMap& map) const;
 
  private:
+  /// How `of` looks in the axes of `like`: floor edges first seen from opposite sides are turned.
+  LandmarkLooks looksInAxesOf(LandmarkId like, LandmarkId of, const State& state) const;
   struct Page {
     LandmarkLooks looks;
     std::map<LandmarkId, int> partners;

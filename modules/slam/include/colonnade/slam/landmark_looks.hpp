@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdlib>
+
 #include "colonnade/detectors/detection.hpp"
 
 namespace colonnade {
@@ -12,6 +14,9 @@ class LandmarkLooks {
   void observe(const Detection& detection);
   /// A vertical edge keeps its dark side.
   bool sameDarkSide(const Detection& detection) const;
+  /// Whether one side was the dark one most of the time; that of a thin line is now one, now the
+  /// other.
+  bool hasDarkSide() const { return 2 * std::abs(gradient_balance_) > sightings_; }
 
   struct Difference {
     double distance2 = 0.0;
@@ -27,6 +32,8 @@ class LandmarkLooks {
   bool sameDarkSide(const LandmarkLooks& other) const {
     return gradient_balance_ * other.gradient_balance_ >= 0;
   }
+  /// The same landmark's looks from the other side: of a line on the floor.
+  LandmarkLooks fromOtherSide() const;
   /// The larger difference of the mean colours on either side, in gray levels.
   double colourDistance(const LandmarkLooks& other) const;
   /// What was seen of another landmark was seen of this one.
