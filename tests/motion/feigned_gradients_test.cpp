@@ -18,13 +18,14 @@ constexpr float kWall_m = 1.4F;
 constexpr double kRatio = 4.0;
 
 /// A wall straight ahead with a pattern on it, and the noise of a picture.
-RgbdPyramid wall(const std::function<double(int, int)>& brightness, unsigned seed) {
+RgbdPyramid wall(const std::function<double(int, int)>& brightness, unsigned seed,
+                 double noise_sigma) {
   Frame frame;
   frame.camera = PinholeCamera{320, 240, 265.0, 265.0, 159.5, 119.5};
   frame.depth_m = cv::Mat(240, 320, CV_32FC1, cv::Scalar(kWall_m));
   frame.gray.create(240, 320, CV_8UC1);
   std::mt19937 random(seed);
-  std::normal_distribution<double> noise(0.0, 1.5);
+  std::normal_distribution<double> noise(0.0, noise_sigma);
   for (int v = 0; v < 240; ++v)
     for (int u = 0; u < 320; ++u)
       frame.gray.at<std::uint8_t>(v, u) =
@@ -32,11 +33,12 @@ RgbdPyramid wall(const std::function<double(int, int)>& brightness, unsigned see
   return makePyramid(frame, 1);
 }
 
-NormalEquations equationsOf(const std::function<double(int, int)>& brightness, double ratio) {
-  const RgbdPyramid key = wall(brightness, 1), now = wall(brightness, 2);
+NormalEquations equationsOf(const std::function<double(int, int)>& brightness, double ratio,
+                            double noise_sigma = 1.5) {
+  const RgbdPyramid key = wall(brightness, 1, noise_sigma), now = wall(brightness, 2, noise_sigma);
   ResidualBuffer buffer;
   return photometricEquations(selectPhotometricPoints(key.levels[0], 4, 3.0F), now.levels[0], {},
-                              ratio, buffer);
+                              0.0, ratio, buffer);
 }
 
 /// About the place across and down, turns known.
@@ -50,6 +52,14 @@ TEST(FeignedGradients, StripesTellNothingAlongThem) {
   const Eigen::Vector2d kept = placeInformation(equationsOf(stripes, kRatio));
   EXPECT_GT(feigned.x(), 1.0 / (0.002 * 0.002));  // noise alone, surer than 2 mm
   EXPECT_LT(kept.x(), 0.05 * feigned.x());
+  EXPECT_GT(kept.y(), 0.9 * feigned.y());
+}
+
+TEST(FeignedGradients, NorDoTheyInAPictureTwiceAsNoisy) {
+  const auto stripes = [](int, int v) { return 60.0 + 20.0 * std::sin(0.3 * v); };
+  const Eigen::Vector2d feigned = placeInformation(equationsOf(stripes, 0.0, 3.0));
+  const Eigen::Vector2d kept = placeInformation(equationsOf(stripes, kRatio, 3.0));
+  EXPECT_LT(kept.x(), 0.012 * feigned.x());
   EXPECT_GT(kept.y(), 0.9 * feigned.y());
 }
 

@@ -9,6 +9,8 @@
 #include "alignment_checks.hpp"
 #include "camera_by_wheels.hpp"
 #include "former_velocity.hpp"
+#include "lens_falloff.hpp"
+#include "mirrored_cells.hpp"
 #include "opencv_odometry.hpp"
 #include "rgbd_alignment.hpp"
 #include "rgbd_pyramid.hpp"
@@ -44,7 +46,10 @@ struct CameraTracker::Impl {
   Eigen::Isometry3d T_key_previous = Eigen::Isometry3d::Identity();
   Matrix6 covariance_key_previous = Matrix6::Zero();
   FormerVelocity velocity;
+  LensFalloff falloff;
   double coasted_s = 0.0;
+  PolishedFloor polish;
+  std::optional<MirroredCells> cells;  ///< of the alignment at hand
   /// Of the former frame.
   std::optional<OdometryReading> odometry_previous;
   Eigen::Isometry3d T_robot_camera_previous = Eigen::Isometry3d::Identity();
@@ -111,24 +116,42 @@ struct CameraTracker::Impl {
     return {T_key_previous * of_motion.T_reference_current, of_motion.information};
   }
 
+  /// On a polished floor what it mirrors is left out, as a first alignment with everything tells.
+  Alignment alignUnmirrored(const Reference& reference, const RgbdPyramid& current,
+                            const MotionPrior& prior,
+                            const std::vector<Eigen::Isometry3d>& other_guesses,
+                            const AlignmentOptions& how) {
+    const Alignment alignment = align(reference, current, prior, other_guesses, how);
+    if (!how.use_photometric || !seesTheSame(alignment, options)) return alignment;
+    cells.emplace(reference.pyramid.levels.front().camera, pointsFacingUp(reference),
+                  current.levels.front(), alignment.T_reference_current.inverse());
+    if (!polish.isLikely() || !cells->mirrorSomewhere()) return alignment;
+    Reference unmirrored = reference;
+    for (auto& points : unmirrored.photometric)
+      std::erase_if(points, [&](const auto& point) { return cells->mirrors(point.p_reference); });
+    const Alignment again = align(unmirrored, current, prior, other_guesses, how);
+    return seesTheSame(again, options) ? again : alignment;
+  }
+
   /// Brightness and surfaces of what stands still, as seen from about `T_key_camera`. Nothing where
   /// nothing moved.
   std::optional<Alignment> toStandingPart(const RgbdPyramid& current, const MotionPrior& prior,
                                           const Eigen::Isometry3d& T_key_camera,
-                                          const Matrix6& covariance, double least_share) const {
+                                          const Matrix6& covariance, double least_share) {
     if (!options.use_surfaces) return std::nullopt;
     const auto standing = standingPart(*key, current, T_key_camera, covariance, least_share);
     if (!standing) return std::nullopt;
     // The wheels' place is the prior's, where an alignment starts anyhow.
     const auto other_guesses =
         by_wheels ? std::vector<Eigen::Isometry3d>{} : std::vector{T_key_camera};
-    const Alignment alignment = align(*standing, current, prior, other_guesses, alignment_options);
+    const Alignment alignment =
+        alignUnmirrored(*standing, current, prior, other_guesses, alignment_options);
     return seesTheSame(alignment, options) ? std::optional(alignment) : std::nullopt;
   }
 
   /// Wheels tell what moved, however little.
   std::optional<Alignment> toStandingPartByWheels(const RgbdPyramid& current,
-                                                  const MotionPrior& prior) const {
+                                                  const MotionPrior& prior) {
     const Eigen::Isometry3d& T_previous_camera = by_wheels->T_previous_camera;
     const Matrix6 Ad = adjoint(T_previous_camera.inverse());
     const auto alignment =
@@ -139,7 +162,7 @@ struct CameraTracker::Impl {
 
   /// Without wheels the alignment itself tells what moved, better from round to round.
   Alignment refinedByStandingPart(const RgbdPyramid& current, const MotionPrior& prior,
-                                  Alignment alignment) const {
+                                  Alignment alignment) {
     constexpr int kRounds = 3;
     constexpr double kSettled_m = 1e-3;
     constexpr double kLeastShare = 0.03;  // its sigmas are small, some surfaces always miss them
@@ -164,11 +187,10 @@ struct CameraTracker::Impl {
     // Standing still is a second start, but wheels know better, unless they slip.
     const std::vector<Eigen::Isometry3d> still{T_key_previous};
     const auto no_other = by_wheels ? std::vector<Eigen::Isometry3d>{} : still;
-    Alignment both = align(*key, current, prior, no_other, alignment_options);
+    Alignment both = alignUnmirrored(*key, current, prior, no_other, alignment_options);
     if (by_wheels && !seesTheSame(both, options)) {
-      AlignmentOptions without_wheels = alignment_options;
-      without_wheels.weak_gradient_ratio = 0.0;
-      both = align(*key, current, fromKey(velocity.prior(dt_s, options)), still, without_wheels);
+      both = alignUnmirrored(*key, current, fromKey(velocity.prior(dt_s, options)), still,
+                             alignment_options);
     }
     const bool seen = seesTheSame(both, options);
     if (seen && !by_wheels) return refinedByStandingPart(current, prior, both);
@@ -198,15 +220,18 @@ struct CameraTracker::Impl {
     if (!key) makePreviousTheKey();
     for (int attempt = 0; attempt < 2; ++attempt) {
       motion.contradicts_wheels = false;
+      cells.reset();
       const Alignment alignment = estimate(current, prior, dt_s);
       const Eigen::Isometry3d T_previous_camera =
           T_key_previous.inverse() * alignment.T_reference_current;
       const bool worth_a_second_look = attempt == 0 && isSurprising(T_previous_camera, prior);
       if (isSound(alignment, options) &&
           isPlausible(T_previous_camera, timeSinceTracked(dt_s), options) && !worth_a_second_look) {
+        if (cells) polish.look(*cells);
         motion.T_previous_camera = T_previous_camera;
         motion.covariance = covarianceOf(alignment, T_previous_camera);
         motion.source = sourceOf(alignment);
+        falloff.update(alignment.falloff_step, alignment.falloff_information);
         T_key_previous = alignment.T_reference_current;
         covariance_key_previous = alignment.covariance;
         // Where brightness was left out, the pose at the key frame is not worth another look at it.
@@ -244,8 +269,7 @@ const CameraMotion& CameraTracker::track(const Frame& frame) {
   RgbdPyramid current = makePyramid(frame, kLevels);
   if (!is_first) {
     self.by_wheels = self.byWheels(frame, dt_s);
-    self.alignment_options.weak_gradient_ratio =
-        self.by_wheels ? self.options.weak_direction_ratio : 0.0;
+    self.alignment_options.lens_falloff = self.falloff.value();
     if (self.alignTo(current, dt_s)) {
       self.coasted_s = 0.0;
     } else {

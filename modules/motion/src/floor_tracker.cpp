@@ -33,6 +33,9 @@ constexpr double kPriorTurn = 1.0;
 /// A scale that is wrong by e over this way and then drawn anew grows, over many short steps, like
 /// independent errors of variance e^2 times this times the step.
 constexpr double kScaleHolds_m = 1.0;
+constexpr double kContradiction = 16.27;  ///< chi squared, 3 degrees of freedom, 0.1 %
+constexpr double kUsual = 7.815;          ///< 5 %
+constexpr double kProof_m = 0.2;          ///< so long a way proves that the floor is followed
 /// Without a look from elsewhere only this part is taken for floor: the robot is about to drive
 /// there.
 constexpr float kAhead_m = 2.2f;
@@ -90,6 +93,7 @@ void FloorTracker::makeKey(RgbdPyramid pyramid, const Eigen::Isometry3d& T_robot
   key_ = Reference{std::move(pyramid), {}, {}};
   T_robot_camera_key_ = T_robot_camera;
   previous_ = {};
+  by_wheels_ = MotionSum();
   placePoints();
 }
 
@@ -117,6 +121,48 @@ void FloorTracker::placePoints() {
     std::erase_if(points, [&](const auto& point) { return !isFloor(point); });
 }
 
+FloorTracker::Verdict FloorTracker::judgeByWheels(const Placed& placed) const {
+  if (!by_wheels_) return Verdict::kOpen;
+  const Pose2& T_key_wheels = by_wheels_->T_start_now();
+  const double way_m = T_key_wheels.translation().norm();
+  Eigen::Matrix3d into_key = Eigen::Matrix3d::Identity();
+  into_key.topLeftCorner<2, 2>() = placed.T_key_robot.rotation();
+  Eigen::Matrix3d S =
+      by_wheels_->covariance() + into_key * placed.covariance * into_key.transpose();
+  const double way = std::hypot(options_.floor_scale, options_.model_error) * way_m;
+  const double turn = options_.model_error * T_key_wheels.phi;
+  S.diagonal() += Eigen::Vector3d(way * way, way * way, turn * turn);
+  Eigen::Vector3d e = placed.T_key_robot.vector() - T_key_wheels.vector();
+  e.z() = wrapAngle(e.z());
+  const double surprise = e.dot(S.llt().solve(e));
+  if (!(surprise < kContradiction)) return Verdict::kContradicts;
+  const double proof_m = std::min(kProof_m, 0.6 * options_.floor_keyframe_m);
+  return way_m > proof_m && surprise < kUsual ? Verdict::kAgrees : Verdict::kOpen;
+}
+
+void FloorTracker::reset() {
+  key_.reset();
+  contradicts_ = false;
+}
+
+bool FloorTracker::leaveOutMirrored(const RgbdPyramid& current, const Pose2& T_key_robot,
+                                    const Eigen::Isometry3d& T_robot_camera) {
+  // Where most of the picture is mirrored the alignment follows that: ways are the wheels'.
+  Pose2 T_key_now = T_key_robot;
+  if (by_wheels_) {
+    T_key_now.x = by_wheels_->T_start_now().x;
+    T_key_now.y = by_wheels_->T_start_now().y;
+  }
+  const MirroredCells cells(
+      key_->pyramid.levels.front().camera, key_->photometric.front(), current.levels.front(),
+      T_robot_camera.inverse() * T_key_now.inverse().toIsometry3() * T_robot_camera_key_);
+  polish_.look(cells);
+  if (!polish_.isLikely() || !cells.mirrorSomewhere()) return false;
+  for (auto& points : key_->photometric)
+    std::erase_if(points, [&](const auto& point) { return cells.mirrors(point.p_reference); });
+  return true;
+}
+
 std::optional<FloorTracker::Placed> FloorTracker::align(
     const RgbdPyramid& current, const Pose2& guess_T_key_robot,
     const Eigen::Isometry3d& T_robot_camera) const {
@@ -130,7 +176,7 @@ std::optional<FloorTracker::Placed> FloorTracker::align(
         T_robot_camera.inverse() * placed.T_key_robot.inverse().toIsometry3() * T_robot_camera_key_;
   };
   const auto equationsAt = [&](const std::vector<PhotometricPoint>& points, std::size_t level) {
-    return photometricEquations(points, current.levels[level], state, 0.0, buffer);
+    return photometricEquations(points, current.levels[level], state, 0.0, 0.0, buffer);
   };
   const auto normal = [&](const NormalEquations& e, double scale) {
     Matrix5 H = scale / options_.photometric_correlation * A.transpose() * e.H * A;
@@ -171,7 +217,8 @@ std::optional<FloorTracker::Placed> FloorTracker::align(
 }
 
 std::optional<MotionIncrement> FloorTracker::track(const Frame& frame,
-                                                   const Pose2& guess_T_previous_robot) {
+                                                   const MotionIncrement& guess) {
+  contradicts_ = false;
   const bool can = !frame.gray.empty() && frame.camera.isCalibrated() &&
                    frame.T_robot_camera.translation().z() > kLowestCamera_m;
   if (!can) {
@@ -183,8 +230,20 @@ std::optional<MotionIncrement> FloorTracker::track(const Frame& frame,
     makeKey(std::move(current), frame.T_robot_camera);
     return std::nullopt;
   }
-  const auto placed =
-      align(current, previous_.T_key_robot * guess_T_previous_robot, frame.T_robot_camera);
+  has_wheels_ = has_wheels_ || guess.isMeasured();
+  if (!guess.isMeasured()) by_wheels_.reset();
+  if (by_wheels_) by_wheels_->add(guess);
+  const Pose2 T_key_guessed = previous_.T_key_robot * guess.T_previous_robot;
+  auto placed = align(current, T_key_guessed, frame.T_robot_camera);
+  const Verdict verdict = placed ? judgeByWheels(*placed) : Verdict::kOpen;
+  contradicts_ = believed_ && verdict == Verdict::kContradicts;
+  if (verdict == Verdict::kAgrees) believed_ = true;
+  if (verdict == Verdict::kContradicts) {
+    believed_ = false;
+    placed.reset();
+  }
+  if (placed && leaveOutMirrored(current, placed->T_key_robot, frame.T_robot_camera))
+    placed = align(current, T_key_guessed, frame.T_robot_camera);
   if (!placed) {
     key_.reset();
     makeKey(std::move(current), frame.T_robot_camera);
@@ -215,7 +274,7 @@ std::optional<MotionIncrement> FloorTracker::track(const Frame& frame,
       std::abs(placed->T_key_robot.phi) > options_.keyframe_angle ||
       placed->share < options_.keyframe_share)
     makeKey(std::move(current), frame.T_robot_camera);
-  return increment;
+  return believed_ || !has_wheels_ ? std::optional(increment) : std::nullopt;
 }
 
 }  // namespace colonnade

@@ -92,7 +92,10 @@ struct MotionEstimator::Impl {
                                          const std::optional<MotionIncrement>& wheels,
                                          double dt_s) {
     if (!mayUseVisual() || !options.use_floor || !frame.depth_m.empty()) return std::nullopt;
-    return floor.track(frame, wheels ? wheels->T_previous_robot : formerVelocity(dt_s));
+    MotionIncrement guess;
+    guess.source = MotionSource::kConstantVelocity;
+    guess.T_previous_robot = formerVelocity(dt_s);
+    return floor.track(frame, wheels.value_or(guess));
   }
 
   /// Direct alignment is local: after a longer step it may rest in a wrong minimum and be sure of
@@ -121,9 +124,11 @@ struct MotionEstimator::Impl {
   }
 
   MotionIncrement measure(const Frame& frame, const MountingAtFrame& mounting, double dt_s) {
-    const auto wheels = byWheels(frame);
+    auto wheels = byWheels(frame);
     auto camera = byCamera(frame, mounting);
+    if (!frame.depth_m.empty()) floor.reset();
     if (!camera) camera = byFloor(frame, wheels, dt_s);
+    if (wheels && frame.depth_m.empty() && floor.contradictsWheels()) doubt(*wheels);
     if (camera && wheels && camera->source == MotionSource::kFloor && isSharpTurn(*wheels))
       camera.reset();
     if (wheels && camera && camera->source != MotionSource::kConstantVelocity &&

@@ -26,6 +26,7 @@ NormalEquations normalEquations(const std::vector<ResidualRow>& rows,
   const float estimated_sigma = robustSigma(magnitudes);
   const float sigma = std::clamp(estimated_sigma, min_sigma, max_sigma);
   const float inverse_variance = 1.0f / (sigma * sigma);
+  constexpr float kMost = static_cast<float>(2.0 * kOutlierCost) / (kFreedom + 1.0f);
   NormalEquations equations;
   for (std::size_t begin = 0; begin < rows.size(); begin += kRun) {
     Eigen::Matrix<float, 8, 8> H = Eigen::Matrix<float, 8, 8>::Zero();
@@ -35,11 +36,11 @@ NormalEquations normalEquations(const std::vector<ResidualRow>& rows,
     for (std::size_t i = begin; i < end; ++i) {
       const ResidualRow& row = rows[i];
       const float squared = row.r * row.r * inverse_variance;
-      const float weight = (kFreedom + 1.0f) / (kFreedom + squared) * inverse_variance;
+      const float weight = studentWeight(squared) * inverse_variance;
       const Eigen::Matrix<float, 8, 1> weighted = weight * row.J;
       H.noalias() += weighted * row.J.transpose();
       g.noalias() += weighted * row.r;
-      cost += std::log1p(squared / kFreedom);
+      cost += std::min(std::log1p(squared / kFreedom), kMost);
     }
     equations.H += H.cast<double>();
     equations.g += g.cast<double>();

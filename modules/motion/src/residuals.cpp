@@ -14,6 +14,8 @@ constexpr float kMaxBrightnessSigma = 12.0f;
 /// Of a brightness gradient, mean of two images' central differences, where a difference of
 /// brightness has kMinBrightnessSigma: 1 / sqrt(8) of it; levels a pixel.
 constexpr double kGradientSigma = 0.53;
+/// Noise of gradients grows with that of brightness; residuals larger still are not all noise.
+constexpr double kLoudest = 2.0;
 constexpr std::size_t kFeignedStride = 4;  ///< one point of so many stands for all
 constexpr float kMinSurfaceSigma = 1.0f;   ///< in units of the sensor's noise model
 constexpr float kMaxSurfaceSigma = 3.0f;
@@ -62,6 +64,25 @@ Eigen::Vector4f sample(const cv::Mat& intensity, float u, float v) {
          b * ((1.0f - a) * Channels(lower) + a * Channels(lower + 4));
 }
 
+/// What a pixel would show on the axis of the lens: brightness and its derivatives.
+struct OnAxis {
+  OnAxis(float brightness_seen, const Eigen::Vector2f& gradient_seen, const Eigen::Vector3f& p,
+         float falloff, const Projection& projection) {
+    const float x = p.x() / p.z();
+    const float y = p.y() / p.z();
+    const float tan_squared = x * x + y * y;
+    const float scale = 1.0f / std::max(0.2f, 1.0f - falloff * tan_squared);
+    brightness = scale * brightness_seen;
+    gradient = scale * gradient_seen + 2.0f * falloff * scale * brightness *
+                                           Eigen::Vector2f(x / projection.fx, y / projection.fy);
+    by_falloff = scale * tan_squared;
+  }
+
+  float brightness;
+  Eigen::Vector2f gradient;
+  float by_falloff;  ///< relative
+};
+
 /// Sum of w var(n) J^T J with J = (I, -[q]x): what random normals would add to H.
 struct FeignedInformation {
   float weight = 1e-3f;
@@ -101,19 +122,24 @@ struct FeignedByGradients {
 
 NormalEquations photometricEquations(const std::vector<PhotometricPoint>& points,
                                      const PyramidLevel& current, const AlignmentState& state,
-                                     double weak_direction_ratio, ResidualBuffer& buffer) {
+                                     double lens_falloff, double weak_direction_ratio,
+                                     ResidualBuffer& buffer) {
   const Projection projection(state, current.camera);
+  const auto falloff = static_cast<float>(lens_falloff);
   const auto gain = static_cast<float>(1.0 + state.gain);
   const auto bias = static_cast<float>(state.bias);
   float shared_gradient = 0.0f;
   float reference_gradient = 1e-3f;
   FeignedByGradients feigned;
+  int in_view = 0;
   buffer.rows.clear();
+  buffer.by_falloff.clear();
   buffer.magnitudes.clear();
   for (const PhotometricPoint& point : points) {
     const Eigen::Vector3f q = projection.inCamera(point.p_reference);
     const auto pixel = pixelOf(q, projection, current);
     if (!pixel) continue;
+    ++in_view;
     const auto [u, v] = *pixel;
     const float inverse_z = 1.0f / q.z();
     // Hidden behind something nearer: another surface's brightness.
@@ -121,15 +147,22 @@ NormalEquations photometricEquations(const std::vector<PhotometricPoint>& points
         current.depth_m.at<float>(static_cast<int>(v + 0.5f), static_cast<int>(u + 0.5f));
     if (seen > 0.0f && seen < q.z() - (0.05f + 0.04f * q.z())) continue;
     const Eigen::Vector4f value = sample(current.intensity, u, v);
-    const float gu = 0.5f * (value[1] + gain * point.gradient.x()) * projection.fx * inverse_z;
-    const float gv = 0.5f * (value[2] + gain * point.gradient.y()) * projection.fy * inverse_z;
+    const OnAxis now(value[0], value.segment<2>(1), q, falloff, projection);
+    const OnAxis then(point.brightness, point.gradient, point.p_reference, falloff, projection);
+    const float gu =
+        0.5f * (now.gradient.x() + gain * then.gradient.x()) * projection.fx * inverse_z;
+    const float gv =
+        0.5f * (now.gradient.y() + gain * then.gradient.y()) * projection.fy * inverse_z;
     shared_gradient += point.gradient.dot(value.segment<2>(1));
     reference_gradient += point.gradient.squaredNorm();
     const Eigen::Vector3f j(gu, gv, -(gu * q.x() + gv * q.y()) * inverse_z);
     const Eigen::Vector3f j_turn = q.cross(j);
     ResidualRow row;
-    row.r = value[0] - gain * point.brightness - bias;
-    row.J << j, j_turn, -point.brightness, -1.0f;
+    row.r = now.brightness - gain * then.brightness - bias;
+    row.J << j, j_turn, -then.brightness, -1.0f;
+    // The mean of both brightnesses, as their difference is the residual.
+    buffer.by_falloff.push_back(0.5f * (now.brightness + gain * then.brightness) *
+                                (now.by_falloff - then.by_falloff));
     if (buffer.rows.size() % kFeignedStride == 0)
       feigned.add(q, projection.fx * inverse_z, projection.fy * inverse_z);
     buffer.rows.push_back(row);
@@ -138,12 +171,29 @@ NormalEquations photometricEquations(const std::vector<PhotometricPoint>& points
   NormalEquations equations =
       normalEquations(buffer.rows, buffer.magnitudes, kMinBrightnessSigma, kMaxBrightnessSigma);
   constexpr double kNoise = static_cast<double>(kFeignedStride) * kGradientSigma * kGradientSigma;
-  Matrix6 noise = kNoise * feigned.sum.cast<double>();
+  const double louder =
+      std::min(equations.sigma / static_cast<double>(kMinBrightnessSigma), kLoudest);
+  Matrix6 noise = louder * louder * kNoise * feigned.sum.cast<double>();
   noise += (1e-3 + 1e-6 * noise.trace()) * Matrix6::Identity();
   suppressWeakDirections(noise / (equations.sigma * equations.sigma), weak_direction_ratio,
                          equations);
+  equations.in_view = in_view;
   equations.gradient_agreement = static_cast<double>(shared_gradient / reference_gradient);
   return equations;
+}
+
+FalloffEquation falloffEquation(const ResidualBuffer& buffer, double sigma) {
+  const auto inverse_variance = static_cast<float>(1.0 / (sigma * sigma));
+  FalloffEquation equation;
+  for (std::size_t i = 0; i < buffer.by_falloff.size(); ++i) {
+    const ResidualRow& row = buffer.rows[i];
+    const float j = buffer.by_falloff[i];
+    const float weighted = studentWeight(row.r * row.r * inverse_variance) * inverse_variance * j;
+    equation.H += static_cast<double>(weighted * j);
+    equation.g += static_cast<double>(weighted * row.r);
+    equation.mixed += (weighted * row.J).cast<double>();
+  }
+  return equation;
 }
 
 std::vector<float> brightnessResiduals(const std::vector<PhotometricPoint>& points,
@@ -162,6 +212,16 @@ std::vector<float> brightnessResiduals(const std::vector<PhotometricPoint>& poin
   return residuals;
 }
 
+float brightnessNoise(std::vector<float> residuals) {
+  constexpr float kLeast = 1.0f;
+  constexpr float kQuartileOfNoise = 0.3186f;  // of |noise|, in sigmas
+  std::erase_if(residuals, [](float r) { return r < 0.0f; });
+  if (residuals.empty()) return kLeast;
+  const auto quartile = residuals.begin() + static_cast<std::ptrdiff_t>(residuals.size() / 4);
+  std::nth_element(residuals.begin(), quartile, residuals.end());
+  return std::max(*quartile / kQuartileOfNoise, kLeast);
+}
+
 NormalEquations surfaceEquations(const std::vector<SurfacePoint>& points,
                                  const PyramidLevel& current, const AlignmentState& state,
                                  float gate_m, double weak_direction_ratio,
@@ -170,6 +230,7 @@ NormalEquations surfaceEquations(const std::vector<SurfacePoint>& points,
   const auto u_end = static_cast<float>(current.depth_m.cols);
   const auto v_end = static_cast<float>(current.depth_m.rows);
   FeignedInformation feigned;
+  int in_view = 0;
   buffer.rows.clear();
   buffer.magnitudes.clear();
   for (const SurfacePoint& point : points) {
@@ -182,6 +243,7 @@ NormalEquations surfaceEquations(const std::vector<SurfacePoint>& points,
     const int iv = static_cast<int>(v);
     const float depth = current.depth_m.at<float>(iv, iu);
     if (!(depth > 0.0f)) continue;
+    ++in_view;
     const Eigen::Vector3f seen((static_cast<float>(iu) - projection.cx) / projection.fx * depth,
                                (static_cast<float>(iv) - projection.cy) / projection.fy * depth,
                                depth);
@@ -201,6 +263,7 @@ NormalEquations surfaceEquations(const std::vector<SurfacePoint>& points,
       normalEquations(buffer.rows, buffer.magnitudes, kMinSurfaceSigma, kMaxSurfaceSigma);
   suppressWeakDirections(feigned.matrix() / (equations.sigma * equations.sigma),
                          weak_direction_ratio, equations);
+  equations.in_view = in_view;
   return equations;
 }
 

@@ -16,6 +16,12 @@ namespace {
 constexpr float kFinestGate_m = 0.07f;
 constexpr double kGainSigma = 0.1;
 constexpr double kBiasSigma = 20.0;  ///< brightness levels
+/// The coarsest level is no surer of the end of a way, at the resolution of the finest.
+constexpr double kSameWay_px = 2.0;
+/// A last step, metres plus radians. Where one at the finest level is longer than `kNear` the prior
+/// was not near enough to start there.
+constexpr double kSettled = 2e-4;
+constexpr double kNear = 1e-3;
 
 double squared(double value) { return value * value; }
 
@@ -35,7 +41,7 @@ class Problem {
     if (options_.use_photometric) {
       parts.photometric =
           photometricEquations(reference_.photometric[level], current_.levels[level], state,
-                               options_.weak_gradient_ratio, buffer_);
+                               options_.lens_falloff, options_.weak_direction_ratio, buffer_);
     }
     if (options_.use_surfaces) {
       parts.surfaces = surfaceEquations(reference_.surfaces, current_.levels.front(), state, gate_m,
@@ -65,12 +71,35 @@ class Problem {
     return sum(parts(state, level, gate_m), state, false);
   }
 
-  /// What a start is worth at a level: mean cost of a residual, where points that fell out of view
-  /// cost like outliers and the scale counts, so that a bad start does not win by a large one.
-  double cost(const AlignmentState& state, std::size_t level, float gate_m) {
-    const Parts both = parts(state, level, gate_m);
-    return meanCost(both.photometric, reference_.photometric[level].size()) +
-           meanCost(both.surfaces, reference_.surfaces.size());
+  /// Minus the logarithm of the posterior at the finest level. Points out of view say nothing: in
+  /// a turn some must leave it, and what loses fewer of them is no better for that.
+  double cost(const AlignmentState& state) {
+    const Parts both = parts(state, 0, kFinestGate_m);
+    const auto sum = [](const NormalEquations& part, std::size_t of, double correlation) {
+      return static_cast<double>(of) / correlation * meanCost(part);
+    };
+    const Vector6 twist = logSe3(state.T_current_reference * prior_.T_reference_current);
+    return sum(both.photometric, reference_.photometric.front().size(),
+               options_.photometric_correlation) +
+           sum(both.surfaces, reference_.surfaces.size(), options_.surface_correlation) +
+           0.5 * twist.dot(prior_.information * twist);
+  }
+
+  /// Root mean square distance of the reference's surfaces in the picture, as either state has it.
+  double pixelsApart(const AlignmentState& a, const AlignmentState& b) const {
+    constexpr std::size_t kStride = 16;
+    const double focal_px = current_.levels.front().camera.fx_px;
+    double sum = 0.0;
+    int count = 0;
+    for (std::size_t i = 0; i < reference_.surfaces.size(); i += kStride) {
+      const Eigen::Vector3d p = reference_.surfaces[i].p_reference.cast<double>();
+      const Eigen::Vector3d q_a = a.T_current_reference * p;
+      const Eigen::Vector3d q_b = b.T_current_reference * p;
+      if (!(q_a.z() > 0.2 && q_b.z() > 0.2)) continue;
+      sum += squared(focal_px) * (q_a / q_a.z() - q_b / q_b.z()).squaredNorm();
+      ++count;
+    }
+    return count == 0 ? std::numeric_limits<double>::infinity() : std::sqrt(sum / count);
   }
 
   /// The change of brightness alone, at a fixed pose.
@@ -100,10 +129,27 @@ class Problem {
         share(both.photometric.count, reference_.photometric.front().size());
     alignment.surface_share = share(both.surfaces.count, reference_.surfaces.size());
     alignment.converged = alignment.covariance.allFinite();
+    if (both.photometric.count > 0) addFalloff(state, equations, alignment);
     return alignment;
   }
 
  private:
+  /// The Schur complement of all other unknowns.
+  void addFalloff(const AlignmentState& state, const NormalEquations& others,
+                  Alignment& alignment) {
+    const NormalEquations photometric =
+        photometricEquations(reference_.photometric.front(), current_.levels.front(), state,
+                             options_.lens_falloff, 0.0, buffer_);
+    const FalloffEquation falloff = falloffEquation(buffer_, photometric.full_sigma);
+    const double correlation = options_.photometric_correlation;
+    const Vector8 solved = others.H.ldlt().solve(falloff.mixed) / correlation;
+    const double information = (falloff.H - falloff.mixed.dot(solved)) / correlation;
+    const double gradient = falloff.g / correlation - solved.dot(others.g);
+    if (!(information > 0.0) || !std::isfinite(gradient)) return;
+    alignment.falloff_information = information;
+    alignment.falloff_step = -gradient / information;
+  }
+
   static void add(const NormalEquations& part, double correlation, bool as_estimated,
                   NormalEquations& sum) {
     if (part.count == 0) return;
@@ -113,12 +159,12 @@ class Problem {
     sum.count += part.count;
   }
 
-  static double meanCost(const NormalEquations& part, std::size_t asked) {
-    constexpr double kLost = 4.0;
-    if (asked == 0) return 0.0;
-    const double lost = static_cast<double>(asked) - part.count;
+  /// Of a point in view; the scale counts, so that a bad pose does not win by a large one.
+  static double meanCost(const NormalEquations& part) {
+    if (part.in_view == 0) return kOutlierCost;
+    const double lost = static_cast<double>(part.in_view) - part.count;
     const double scale = part.count * std::log(std::max(part.sigma, 1e-3));
-    return (part.cost + scale + kLost * lost) / static_cast<double>(asked);
+    return (part.cost + scale + kOutlierCost * lost) / static_cast<double>(part.in_view);
   }
 
   const Reference& reference_;
@@ -140,6 +186,28 @@ double step(const NormalEquations& equations, AlignmentState& state) {
   state.gain = std::clamp(state.gain + dx(6), -0.5, 0.5);
   state.bias = std::clamp(state.bias + dx(7), -80.0, 80.0);
   return dx.head<3>().norm() + dx.segment<3>(3).norm();
+}
+
+/// Iterates at one level; returns the last step (metres plus radians), infinity if that leads
+/// nowhere.
+double refine(Problem& problem, std::size_t level, AlignmentState& state) {
+  const int iterations = level == 0 ? 6 : 8;
+  const float gate_m = level == 0 ? kFinestGate_m : 0.1f;
+  const double enough = level == 0 ? 1e-4 : 5e-4;
+  double moved = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < iterations; ++i) {
+    moved = step(problem.combined(state, level, gate_m), state);
+    if (!std::isfinite(moved) || moved < enough) break;
+  }
+  return moved;
+}
+
+AlignmentState atCoarsestLevel(Problem& problem, std::size_t coarsest, AlignmentState state) {
+  for (int i = 0; i < 8; ++i) {
+    const float gate_m = i < 4 ? 0.3f : 0.15f;
+    if (step(problem.combined(state, coarsest, gate_m), state) < 2e-3) break;
+  }
+  return state;
 }
 
 bool areAlike(const Reference& reference, const RgbdPyramid& current) {
@@ -168,31 +236,35 @@ Alignment align(const Reference& reference, const RgbdPyramid& current, const Mo
   guesses.insert(guesses.end(), other_guesses.begin(), other_guesses.end());
 
   const std::size_t coarsest = current.levels.size() - 1;
+  std::vector<AlignmentState> ends;  // where ways have settled
   AlignmentState best;
   double best_cost = std::numeric_limits<double>::infinity();
-  for (const Eigen::Isometry3d& guess : guesses) {
-    AlignmentState state{guess.inverse(), 0.0, 0.0};
-    for (int i = 0; i < 8; ++i) {
-      const float gate_m = i < 4 ? 0.3f : 0.15f;
-      if (step(problem.combined(state, coarsest, gate_m), state) < 2e-3) break;
-    }
-    const double cost = problem.cost(state, coarsest, 0.15f);
+  const auto judge = [&](const AlignmentState& state, double moved) {
+    if (moved < kSettled) ends.push_back(state);
+    const double cost = problem.cost(state);
     if (cost < best_cost) {
       best_cost = cost;
       best = state;
     }
+  };
+  // At coarse levels someone who walks weighs more than lines on the floor, and shade that goes
+  // with the lens more than what is left of texture: where the prior is near they only mislead.
+  AlignmentState near{prior.T_reference_current.inverse(), 0.0, 0.0};
+  const double moved = refine(problem, 0, near);
+  if (moved < kNear) judge(near, moved);
+  for (const Eigen::Isometry3d& guess : guesses) {
+    AlignmentState state = atCoarsestLevel(problem, coarsest, {guess.inverse(), 0.0, 0.0});
+    const bool is_known = std::any_of(ends.begin(), ends.end(), [&](const AlignmentState& other) {
+      return problem.pixelsApart(state, other) < kSameWay_px;
+    });
+    if (is_known) continue;
+    double last = 0.0;
+    for (std::size_t level = std::max<std::size_t>(coarsest, 1);
+         level-- > 0 && std::isfinite(last);)
+      last = refine(problem, level, state);
+    if (std::isfinite(last)) judge(state, last);
   }
-
-  for (std::size_t level = coarsest; level-- > 0;) {
-    const int iterations = level == 0 ? 6 : 8;
-    const float gate_m = level == 0 ? kFinestGate_m : 0.1f;
-    const double enough = level == 0 ? 1e-4 : 5e-4;
-    for (int i = 0; i < iterations; ++i) {
-      const double moved = step(problem.combined(best, level, gate_m), best);
-      if (!std::isfinite(moved)) return {};
-      if (moved < enough) break;
-    }
-  }
+  if (!std::isfinite(best_cost)) return {};
   return problem.result(best);
 }
 

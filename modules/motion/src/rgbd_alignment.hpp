@@ -16,12 +16,10 @@ struct AlignmentOptions {
   bool use_surfaces = true;
   double photometric_correlation = 20.0;  ///< neighbouring residuals that count as one
   double surface_correlation = 35.0;
-  /// Surface directions are used where they hold this many times the information that the noise of
-  /// the normals alone would feign.
+  /// Directions are used where they hold this many times the information that the noise of the
+  /// surface normals, or of the brightness gradients, alone would feign.
   double weak_direction_ratio = 4.0;
-  /// The same of brightness and the noise of its gradients; 0: used all the same. For where the
-  /// prior knows weak directions better, as wheels do and a former velocity does not.
-  double weak_gradient_ratio = 0.0;
+  double lens_falloff = 0.0;  ///< see FalloffEquation
 };
 
 /// A frame prepared to be aligned to.
@@ -49,6 +47,9 @@ struct Alignment {
   double gradient_agreement = 0.0;  ///< of brightness; see NormalEquations
   int photometric_count = 0;
   int surface_count = 0;
+  /// What this alignment would add to the lens' falloff, whatever pose and exposure are.
+  double falloff_step = 0.0;
+  double falloff_information = 0.0;
   bool converged = false;
 };
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <vector>
 
+#include "cell_grid.hpp"
 #include "residuals.hpp"
 
 namespace colonnade {
@@ -35,10 +36,7 @@ class StandingTest {
     std::array<double, kShares.size()> cost{};  ///< squared residuals in units of their noise
     int count = 0;
   };
-  std::size_t cellOf(const Eigen::Vector3f& p_camera) const;
-  PinholeCamera camera_;
-  int columns_;
-  int rows_;
+  CellGrid grid_;
   std::vector<Cell> cells_;
 };
 
