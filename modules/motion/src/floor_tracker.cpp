@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "colonnade/base/angle.hpp"
+#include "fusion.hpp"
 #include "residuals.hpp"
 #include "standing_test.hpp"
 
@@ -33,9 +34,7 @@ constexpr double kPriorTurn = 1.0;
 /// A scale that is wrong by e over this way and then drawn anew grows, over many short steps, like
 /// independent errors of variance e^2 times this times the step.
 constexpr double kScaleHolds_m = 1.0;
-constexpr double kContradiction = 16.27;  ///< chi squared, 3 degrees of freedom, 0.1 %
-constexpr double kUsual = 7.815;          ///< 5 %
-constexpr double kProof_m = 0.2;          ///< so long a way proves that the floor is followed
+constexpr double kProof_m = 0.2;  ///< so long a way proves that the floor is followed
 /// Without a look from elsewhere only this part is taken for floor: the robot is about to drive
 /// there.
 constexpr float kAhead_m = 2.2f;
@@ -135,7 +134,7 @@ FloorTracker::Verdict FloorTracker::judgeByWheels(const Placed& placed) const {
   Eigen::Vector3d e = placed.T_key_robot.vector() - T_key_wheels.vector();
   e.z() = wrapAngle(e.z());
   const double surprise = e.dot(S.llt().solve(e));
-  if (!(surprise < kContradiction)) return Verdict::kContradicts;
+  if (!(surprise < kConflict)) return Verdict::kContradicts;
   const double proof_m = std::min(kProof_m, 0.6 * options_.floor_keyframe_m);
   return way_m > proof_m && surprise < kUsual ? Verdict::kAgrees : Verdict::kOpen;
 }

@@ -10,8 +10,6 @@
 namespace colonnade {
 namespace {
 
-constexpr double kUsual = 7.815;     ///< chi squared, 3 degrees of freedom, 5 %
-constexpr double kConflict = 16.27;  ///< 0.1 %
 /// A conflict says little about which of the two is wrong. To cover what the camera says would let
 /// one bad alignment open all gates.
 constexpr double kDoubtInWheels = 4.0;

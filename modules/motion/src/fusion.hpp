@@ -6,6 +6,11 @@
 
 namespace colonnade {
 
+/// Chi squared with 3 degrees of freedom: two measurements of a motion in the plane that differ by
+/// more are unusual (5 %), or contradict each other (0.1 %).
+inline constexpr double kUsual = 7.815;
+inline constexpr double kConflict = 16.27;
+
 /// One increment of two independent measurements of it, weighted by their information
 /// (Gauss-Markov). Where they differ by more than their covariances allow, the covariance is wider
 /// (Birge 1932); beyond the 0.1 % point of chi-squared the wheels are kept with twice their

@@ -35,31 +35,38 @@ MirroredCells::MirroredCells(const PinholeCamera& camera,
     return static_cast<float>(camera.fx_px) *
            (at_infinity.hnormalized() - at_depth.hnormalized()).norm();
   };
-  std::vector<PhotometricPoint> points;
-  std::copy_if(floor.begin(), floor.end(), std::back_inserter(points),
+  std::vector<PhotometricPoint> moved;
+  std::copy_if(floor.begin(), floor.end(), std::back_inserter(moved),
                [&](const auto& point) { return parallax(point) > kLeastParallax; });
-  std::vector<PhotometricPoint> placed = points;
-  const auto residualsAt = [&](float share) {
-    for (std::size_t i = 0; i < points.size(); ++i)
-      placed[i].p_reference = share * points[i].p_reference;
-    return brightnessResiduals(placed, current, state);
-  };
-  const std::vector<float> here = residualsAt(1.0f);
+  const std::vector<float> residuals_here = brightnessResiduals(moved, current, state);
+  std::vector<PhotometricPoint> points;  // still in the picture
+  std::vector<float> here;
+  for (std::size_t i = 0; i < moved.size(); ++i) {
+    if (residuals_here[i] < 0.0f) continue;
+    points.push_back(moved[i]);
+    here.push_back(residuals_here[i]);
+  }
   const float noise = brightnessNoise(here);
+  std::vector<std::size_t> cell_of;
+  for (const PhotometricPoint& point : points) {
+    cell_of.push_back(grid_.cellOf(point.p_reference));
+    ++cells_[cell_of.back()].points;
+  }
+  std::vector<PhotometricPoint> placed = points;
   const auto add = [&](const auto& shares, auto cost) {
     for (std::size_t k = 0; k < shares.size(); ++k) {
-      const std::vector<float> residuals = residualsAt(shares[k]);
+      for (std::size_t i = 0; i < points.size(); ++i)
+        placed[i].p_reference = shares[k] * points[i].p_reference;
+      const std::vector<float> residuals =
+          shares[k] == 1.0f ? here : brightnessResiduals(placed, current, state);
       for (std::size_t i = 0; i < points.size(); ++i) {
-        if (here[i] < 0.0f) continue;  // left the picture
         const float r = residuals[i] >= 0.0f ? std::min(residuals[i] / noise, kMost) : kMost;
-        (cells_[grid_.cellOf(points[i].p_reference)].*cost)[k] += static_cast<double>(r * r);
+        (cells_[cell_of[i]].*cost)[k] += static_cast<double>(r * r);
       }
     }
   };
   add(kAbout, &Cell::cost_about);
   add(kFarther, &Cell::cost_farther);
-  for (std::size_t i = 0; i < points.size(); ++i)
-    if (here[i] >= 0.0f) ++cells_[grid_.cellOf(points[i].p_reference)].points;
 }
 
 bool MirroredCells::Cell::judged() const { return points >= kMinPoints; }
