@@ -60,6 +60,28 @@ INSTANTIATE_TEST_SUITE_P(Steps, KnownMotion,
                                            Step{-0.05, 0.03, radians(2.0)},
                                            Step{0.02, 0.0, radians(-6.0)}));
 
+class SharpTurn : public ::testing::TestWithParam<double> {};
+
+TEST_P(SharpTurn, BetweenFramesFarApartInTimeIsFound) {
+  const Scene scene = Scene::corridor(true, true);
+  auto estimator = makeEstimator();
+  const double pitch = radians(12.0), turn = radians(GetParam());
+  const auto at = [&](std::size_t index, double x, double heading) {
+    Frame frame = view(scene, index, cameraInWorld(x, 0.0, 1.1, heading, pitch));
+    frame.stamp_s = 0.5 * static_cast<double>(index);
+    return frame;
+  };
+  estimator.increment(at(0, 0.0, 0.0));
+  estimator.increment(at(1, 0.1, 0.0));  // it has not begun to turn
+  const auto motion = estimator.increment(at(2, 0.2, turn));
+  EXPECT_EQ(motion.source, MotionSource::kPhotometricIcp);
+  EXPECT_NEAR(motion.T_previous_robot.x, 0.1, 0.01);
+  EXPECT_NEAR(motion.T_previous_robot.y, 0.0, 0.01);
+  EXPECT_NEAR(motion.T_previous_robot.phi, turn, radians(0.2));
+}
+
+INSTANTIATE_TEST_SUITE_P(Degrees, SharpTurn, ::testing::Values(-30.0, -22.0, 12.0, 18.0, 25.0));
+
 TEST(VisualOdometry, ChangedExposureDoesNotMoveTheCamera) {
   const Scene scene = Scene::corridor(true, true);
   auto estimator = makeEstimator();

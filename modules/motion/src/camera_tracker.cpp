@@ -16,6 +16,7 @@
 #include "rgbd_pyramid.hpp"
 #include "se3.hpp"
 #include "standing_part.hpp"
+#include "turned_starts.hpp"
 
 namespace colonnade {
 namespace {
@@ -33,6 +34,7 @@ struct CameraTracker::Impl {
     alignment_options.use_surfaces = options.use_surfaces;
     alignment_options.photometric_correlation = options.photometric_correlation;
     alignment_options.surface_correlation = options.surface_correlation;
+    alignment_options.min_share = options.min_share;
     alignment_options.weak_direction_ratio = options.weak_direction_ratio;
   }
 
@@ -179,18 +181,27 @@ struct CameraTracker::Impl {
     return alignment;
   }
 
+  /// Standing still is a second start, and so are turns where the prior is unsure of them.
+  std::vector<Eigen::Isometry3d> otherStarts(const MotionPrior& prior) const {
+    std::vector<Eigen::Isometry3d> starts{T_key_previous};
+    const Eigen::Vector3d up_camera =
+        T_robot_camera_previous.linear().transpose() * Eigen::Vector3d::UnitZ();
+    for (const auto& turned : turnedStarts(prior, up_camera)) starts.push_back(turned);
+    return starts;
+  }
+
   /// Brightness and surfaces, or surfaces alone: before bare walls, in a dark or overexposed image.
   Alignment directly(const RgbdPyramid& current, const MotionPrior& of_motion, double dt_s) {
     const MotionPrior prior = fromKey(of_motion);
     if (by_wheels)
       if (const auto alignment = toStandingPartByWheels(current, prior)) return *alignment;
-    // Standing still is a second start, but wheels know better, unless they slip.
-    const std::vector<Eigen::Isometry3d> still{T_key_previous};
-    const auto no_other = by_wheels ? std::vector<Eigen::Isometry3d>{} : still;
-    Alignment both = alignUnmirrored(*key, current, prior, no_other, alignment_options);
+    // Wheels know better where to start, unless they slip.
+    const auto other = by_wheels ? std::vector<Eigen::Isometry3d>{} : otherStarts(prior);
+    Alignment both = alignUnmirrored(*key, current, prior, other, alignment_options);
     if (by_wheels && !seesTheSame(both, options)) {
-      both = alignUnmirrored(*key, current, fromKey(velocity.prior(dt_s, options)), still,
-                             alignment_options);
+      const MotionPrior by_velocity = fromKey(velocity.prior(dt_s, options));
+      both =
+          alignUnmirrored(*key, current, by_velocity, otherStarts(by_velocity), alignment_options);
     }
     const bool seen = seesTheSame(both, options);
     if (seen && !by_wheels) return refinedByStandingPart(current, prior, both);
@@ -198,7 +209,7 @@ struct CameraTracker::Impl {
     if ((seen && !contradicts) || !options.use_surfaces) return both;
     AlignmentOptions surfaces_only = alignment_options;
     surfaces_only.use_photometric = false;
-    const Alignment surfaces = align(*key, current, prior, no_other, surfaces_only);
+    const Alignment surfaces = align(*key, current, prior, other, surfaces_only);
     if (seen && !isSound(surfaces, options)) return both;
     motion.contradicts_wheels = contradicts && isFullOfTexture(both);
     return surfaces;

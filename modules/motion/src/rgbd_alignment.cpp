@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <compare>
 #include <cstddef>
 #include <limits>
 
@@ -28,6 +29,17 @@ double squared(double value) { return value * value; }
 struct Parts {
   NormalEquations photometric;
   NormalEquations surfaces;
+};
+
+/// How well a pose fits at the finest level; less is better.
+struct Fit {
+  /// Where the views hardly overlap, something alike is soon found.
+  bool compares_little = true;
+  /// Minus the logarithm of the posterior. Points out of view say nothing: in a turn some must
+  /// leave it, and what loses fewer of them is no better for that.
+  double cost = std::numeric_limits<double>::infinity();
+
+  auto operator<=>(const Fit&) const = default;
 };
 
 class Problem {
@@ -71,18 +83,21 @@ class Problem {
     return sum(parts(state, level, gate_m), state, false);
   }
 
-  /// Minus the logarithm of the posterior at the finest level. Points out of view say nothing: in
-  /// a turn some must leave it, and what loses fewer of them is no better for that.
-  double cost(const AlignmentState& state) {
+  Fit fit(const AlignmentState& state) {
     const Parts both = parts(state, 0, kFinestGate_m);
+    const double compared = options_.use_photometric
+                                ? share(both.photometric, reference_.photometric.front().size())
+                                : share(both.surfaces, reference_.surfaces.size());
     const auto sum = [](const NormalEquations& part, std::size_t of, double correlation) {
       return static_cast<double>(of) / correlation * meanCost(part);
     };
     const Vector6 twist = logSe3(state.T_current_reference * prior_.T_reference_current);
-    return sum(both.photometric, reference_.photometric.front().size(),
-               options_.photometric_correlation) +
-           sum(both.surfaces, reference_.surfaces.size(), options_.surface_correlation) +
-           0.5 * twist.dot(prior_.information * twist);
+    const double cost =
+        sum(both.photometric, reference_.photometric.front().size(),
+            options_.photometric_correlation) +
+        sum(both.surfaces, reference_.surfaces.size(), options_.surface_correlation) +
+        0.5 * twist.dot(prior_.information * twist);
+    return {compared < options_.min_share, cost};
   }
 
   /// Root mean square distance of the reference's surfaces in the picture, as either state has it.
@@ -122,18 +137,18 @@ class Problem {
     alignment.gradient_agreement = both.photometric.gradient_agreement;
     alignment.photometric_count = both.photometric.count;
     alignment.surface_count = both.surfaces.count;
-    const auto share = [](int count, std::size_t of) {
-      return of == 0 ? 0.0 : static_cast<double>(count) / static_cast<double>(of);
-    };
-    alignment.photometric_share =
-        share(both.photometric.count, reference_.photometric.front().size());
-    alignment.surface_share = share(both.surfaces.count, reference_.surfaces.size());
+    alignment.photometric_share = share(both.photometric, reference_.photometric.front().size());
+    alignment.surface_share = share(both.surfaces, reference_.surfaces.size());
     alignment.converged = alignment.covariance.allFinite();
     if (both.photometric.count > 0) addFalloff(state, equations, alignment);
     return alignment;
   }
 
  private:
+  static double share(const NormalEquations& part, std::size_t of) {
+    return of == 0 ? 0.0 : static_cast<double>(part.count) / static_cast<double>(of);
+  }
+
   /// The Schur complement of all other unknowns.
   void addFalloff(const AlignmentState& state, const NormalEquations& others,
                   Alignment& alignment) {
@@ -238,12 +253,12 @@ Alignment align(const Reference& reference, const RgbdPyramid& current, const Mo
   const std::size_t coarsest = current.levels.size() - 1;
   std::vector<AlignmentState> ends;  // where ways have settled
   AlignmentState best;
-  double best_cost = std::numeric_limits<double>::infinity();
+  Fit best_fit;
   const auto judge = [&](const AlignmentState& state, double moved) {
     if (moved < kSettled) ends.push_back(state);
-    const double cost = problem.cost(state);
-    if (cost < best_cost) {
-      best_cost = cost;
+    const Fit fit = problem.fit(state);
+    if (fit < best_fit) {
+      best_fit = fit;
       best = state;
     }
   };
@@ -264,7 +279,7 @@ Alignment align(const Reference& reference, const RgbdPyramid& current, const Mo
       last = refine(problem, level, state);
     if (std::isfinite(last)) judge(state, last);
   }
-  if (!std::isfinite(best_cost)) return {};
+  if (!std::isfinite(best_fit.cost)) return {};
   return problem.result(best);
 }
 

@@ -19,6 +19,7 @@ struct AlignmentOptions {
   /// Directions are used where they hold this many times the information that the noise of the
   /// surface normals, or of the brightness gradients, alone would feign.
   double weak_direction_ratio = 4.0;
+  double min_share = 0.3;     ///< an end that compares less of the reference gives way to others
   double lens_falloff = 0.0;  ///< see FalloffEquation
 };
 
@@ -54,8 +55,8 @@ struct Alignment {
 };
 
 /// Gauss-Newton on brightness (after an affine change), point-to-plane distance and the prior,
-/// coarse to fine. Starts at the prior or at one of the `other_guesses`, whichever fits best at the
-/// coarsest level.
+/// coarse to fine. Starts at the prior and at each of the `other_guesses`; of where they end the
+/// one counts that fits best at the finest level.
 Alignment align(const Reference& reference, const RgbdPyramid& current, const MotionPrior& prior,
                 const std::vector<Eigen::Isometry3d>& other_guesses,
                 const AlignmentOptions& options);
