@@ -163,6 +163,23 @@ TEST(TumImport, AFirstCameraWorldIsLevelledByTheMounting) {
   EXPECT_TRUE(robot[1].T_world_body.isApprox(Pose2{1.0, 0.0, 0.0}.toIsometry3(), 1e-6));
 }
 
+TEST(TumImport, APartOfAReferenceIsLevelledAsTheWholeIs) {
+  const TumFolder tum;
+  // The world is a camera of before the first pose, which looked 0.2 rad down as this one does.
+  StampedPose first, second;
+  first.stamp_s = 100.0;
+  second.stamp_s = 101.0;
+  first.T_world_body.translation() << 0.5, 0.0, 0.0;
+  second.T_world_body.translation() << 0.5, -std::sin(0.2), std::cos(0.2);
+  writeTum(tum.path() / "reference.tum", {first, second});
+  const auto result = importTum(tum.options());
+  EXPECT_EQ(result.ground_truth_world, GroundTruthWorld::kFirstCamera);
+  const auto robot = readTum(*result.ground_truth);
+  ASSERT_EQ(robot.size(), 2U);
+  EXPECT_TRUE(robot[0].T_world_body.isApprox(Pose2{0.0, -0.5, 0.0}.toIsometry3(), 1e-6));
+  EXPECT_TRUE(robot[1].T_world_body.isApprox(Pose2{1.0, -0.5, 0.0}.toIsometry3(), 1e-6));
+}
+
 TEST(TumImport, StemsDropBothEndings) {
   EXPECT_EQ(logStem("a/b.rawlog"), "a/b");
   EXPECT_EQ(logStem("a/b.rawlog.gz"), "a/b");

@@ -16,8 +16,10 @@ struct StampedUp {
   Eigen::Vector3d up_camera;
 };
 
-/// What kGuess means for this file.
-GroundTruthWorld guessWorld(const std::filesystem::path& file, const Trajectory& cameras);
+/// What kGuess means for this file: what its comments say, else what `ups` tell, else what it
+/// begins with.
+GroundTruthWorld guessWorld(const std::filesystem::path& file, const Trajectory& cameras,
+                            const std::vector<StampedUp>& ups);
 
 /// Camera poses -> the robot in a z-up world: the camera's centre dropped onto the floor, x along
 /// the projected optical axis. For kFirstCamera the vertical is the mean of `ups`, each carried to

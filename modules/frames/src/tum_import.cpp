@@ -180,7 +180,7 @@ class Importer {
     if (!file) return;
     const Trajectory cameras = readTum(*file);
     result_.ground_truth_world = options_.ground_truth_world == GroundTruthWorld::kGuess
-                                     ? guessWorld(*file, cameras)
+                                     ? guessWorld(*file, cameras, ups_)
                                      : options_.ground_truth_world;
     const auto robots = robotGroundTruth(cameras, result_.ground_truth_world, ups_);
     result_.ground_truth = logStem(options_.log).string() + "_ground_truth.tum";

@@ -23,9 +23,9 @@ struct TumCalibration {
 TumCalibration readTumCalibration(const std::filesystem::path& path);
 
 enum class GroundTruthWorld {
-  kGuess,       ///< first-camera when the file says so or begins at the identity, else z-up
+  kGuess,       ///< first-camera when the file says so or the floor is off its z axis, else z-up
   kZUp,         ///< the world's z axis is vertical
-  kFirstCamera  ///< the world is the first camera (optical); the floor tells what is up
+  kFirstCamera  ///< the world is a camera (optical); the floor tells what is up
 };
 
 struct TumImportOptions {
