@@ -117,6 +117,33 @@ TEST_F(AssociationTest, AShiftThatFitsEachPillarAloneButNotTheirSpacingIsRefused
   EXPECT_GT(joint.refused.at("joint test"), 0u);
 }
 
+TEST_F(AssociationTest, ALoneBearingAtTheRimOfAWideGateMayBeOfSomethingElse) {
+  learn({{3.0, 0.0}});
+  becomeUnsure(0.1, 0.1, radians(4.0));
+  const auto off = [&](double turn) {
+    return match({seen({0.0, 0.0, turn}, {3.0, 0.0}, false)}, jcbb());
+  };
+  EXPECT_EQ(1u, off(radians(3.0)).matches.size());
+  const Association at_the_rim = off(radians(10.0));
+  EXPECT_TRUE(at_the_rim.matches.empty());
+  EXPECT_EQ(1u, at_the_rim.refused.at("as likely something else"));
+  EXPECT_TRUE(at_the_rim.near_landmark.front());
+  AssociationOptions no_clutter = jcbb();
+  no_clutter.clutter = 0.0;
+  EXPECT_EQ(1u,
+            match({seen({0.0, 0.0, radians(10.0)}, {3.0, 0.0}, false)}, no_clutter).matches.size());
+}
+
+TEST_F(AssociationTest, BearingsThatAreOffAlikeBearEachOtherOut) {
+  const std::vector<Eigen::Vector2d> pillars = {{3.0, -0.9}, {3.2, -0.1}, {2.8, 0.8}};
+  learn(pillars);
+  becomeUnsure(0.1, 0.1, radians(4.0));
+  Detections detections;
+  for (const auto& pillar : pillars)
+    detections.push_back(seen({0.0, 0.0, radians(9.0)}, pillar, false));
+  EXPECT_EQ(3, right(match(detections, jcbb()), ids_, {0, 1, 2}));
+}
+
 TEST_F(AssociationTest, ThirtyPercentOutliersAreSetAside) {
   std::vector<Eigen::Vector2d> pillars;
   for (int i = 0; i < 14; ++i) {

@@ -35,6 +35,30 @@ double gateProbability(LandmarkKind kind, const AssociationOptions& options) {
   return 0.0;
 }
 
+/// Detections of something else, as many as `options.clutter` has it of those in view.
+class Clutter {
+ public:
+  Clutter(const Detections& detections, const AssociationOptions& options)
+      : share_(options.clutter) {
+    for (const Detection& detection : detections)
+      if (detection.accepted()) ++count_[detection.kind()];
+  }
+  /// The logarithm of how many like this one lie in one unit of what it measures.
+  double logDensity(const Detection& detection) const {
+    constexpr double kView = 1.0;        // rad
+    constexpr double kReach_m = 5.0;     // of ranges
+    constexpr double kFloorView = 10.0;  // rad m: all directions, and where floor edges are seen
+    const double view = detection.kind() == LandmarkKind::kFloorEdge ? kFloorView
+                        : detection.measurement.hasRange()           ? kView * kReach_m
+                                                                     : kView;
+    return std::log(share_ * count_.at(detection.kind()) / view);
+  }
+
+ private:
+  double share_;
+  std::map<LandmarkKind, int> count_;
+};
+
 /// What lies around one detection.
 struct Nearby {
   std::vector<Pairing> pairings;
@@ -42,8 +66,9 @@ struct Nearby {
   bool unlike = false;  ///< within the gate of one, kept from it by its looks
 };
 
-Nearby lookAround(std::size_t index, const Detection& detection, const EkfSlam& filter,
-                  const LandmarkBook& book, const AssociationOptions& options) {
+Nearby lookAround(std::size_t index, const Detection& detection, double log_clutter,
+                  const EkfSlam& filter, const LandmarkBook& book,
+                  const AssociationOptions& options) {
   Nearby nearby;
   for (const Block& block : filter.state().blocks) {
     if (!block.isLandmark() || block.evidence.hypothesis ||
@@ -74,7 +99,7 @@ Nearby lookAround(std::size_t index, const Detection& detection, const EkfSlam& 
       }
     }
     nearby.pairings.push_back(
-        {index, block.id, innovation->distance2, innovation->distance2 + looks});
+        {index, block.id, innovation->distance2, innovation->distance2 + looks, log_clutter});
   }
   return nearby;
 }
@@ -97,16 +122,38 @@ JointPairings join(std::vector<Pairing> pairings, const Detections& detections,
   return joint;
 }
 
+/// A set that passes the joint chi-square test.
+std::vector<std::size_t> compatible(const JointPairings& joint,
+                                    const std::vector<std::size_t>& nearest, bool many,
+                                    const AssociationOptions& options) {
+  std::vector<std::size_t> chosen = nearest;
+  if (many)
+    chosen = consensusPairings(joint, options.joint_probability);
+  else if (options.method == "jcbb")
+    chosen = jointPairings(joint, options.joint_probability, options.joint_nodes);
+  // jcbb's set passes already; of any other the dearest is dropped until the rest passes.
+  const auto cost = [&](std::size_t i) { return joint.pairings[i].cost; };
+  std::stable_sort(chosen.begin(), chosen.end(),
+                   [&](std::size_t a, std::size_t b) { return cost(a) < cost(b); });
+  while (chosen.size() > 1 &&
+         jointDistance2(joint, chosen) >
+             chiSquareQuantile(options.joint_probability, degreesOfFreedom(joint, chosen)))
+    chosen.pop_back();
+  return chosen;
+}
+
 }  // namespace
 
 Association Associator::match(const Detections& detections, const EkfSlam& filter,
                               const LandmarkBook& book) const {
   Association result;
   result.near_landmark.assign(detections.size(), false);
+  const Clutter clutter(detections, options_);
   std::vector<Pairing> pairings;
   for (std::size_t d = 0; d < detections.size(); ++d) {
     if (!detections[d].accepted()) continue;
-    const Nearby nearby = lookAround(d, detections[d], filter, book, options_);
+    const Nearby nearby =
+        lookAround(d, detections[d], clutter.logDensity(detections[d]), filter, book, options_);
     result.near_landmark[d] = nearby.near;
     pairings.insert(pairings.end(), nearby.pairings.begin(), nearby.pairings.end());
     if (nearby.pairings.empty() && nearby.unlike) ++result.refused["looks unlike the landmark"];
@@ -117,33 +164,25 @@ Association Associator::match(const Detections& detections, const EkfSlam& filte
 
   const JointPairings joint = join(std::move(pairings), detections, filter);
   const std::vector<std::size_t> nearest = nearestPairings(joint.pairings);
-  std::vector<std::size_t> chosen = nearest;
   const bool many = options_.consensus_matches > 0 &&
                     nearest.size() >= static_cast<std::size_t>(options_.consensus_matches);
-  if (many)
-    chosen = consensusPairings(joint, options_.joint_probability);
-  else if (options_.method == "jcbb")
-    chosen = jointPairings(joint, options_.joint_probability, options_.joint_nodes);
-  // jcbb's set passes already; of any other the dearest is dropped until the rest passes.
-  const auto cost = [&](std::size_t i) { return joint.pairings[i].cost; };
-  std::stable_sort(chosen.begin(), chosen.end(),
-                   [&](std::size_t a, std::size_t b) { return cost(a) < cost(b); });
-  while (chosen.size() > 1 &&
-         jointDistance2(joint, chosen) >
-             chiSquareQuantile(options_.joint_probability, degreesOfFreedom(joint, chosen)))
-    chosen.pop_back();
-
-  std::vector<bool> matched(detections.size(), false);
-  for (const std::size_t i : chosen) {
+  const std::vector<std::size_t> chosen = compatible(joint, nearest, many, options_);
+  const std::vector<std::size_t> likely = likelierThanClutter(joint, chosen);
+  std::vector<bool> matched(detections.size(), false), counted(detections.size(), false);
+  for (const std::size_t i : likely) {
     const Pairing& pairing = joint.pairings[i];
     matched[pairing.detection] = true;
     result.matches.push_back({pairing.landmark, detections[pairing.detection].measurement});
     result.detection_of_match.push_back(pairing.detection);
   }
-  std::vector<bool> counted = matched;
+  for (const std::size_t i : chosen) {
+    const std::size_t d = joint.pairings[i].detection;
+    if (!matched[d]) ++result.refused["as likely something else"];
+    counted[d] = true;
+  }
   for (const std::size_t i : nearest) {
     const std::size_t d = joint.pairings[i].detection;
-    if (!matched[d]) ++result.refused[many ? "one-point consensus" : "joint test"];
+    if (!counted[d]) ++result.refused[many ? "one-point consensus" : "joint test"];
     counted[d] = true;
   }
   for (const Pairing& pairing : joint.pairings) {

@@ -16,6 +16,9 @@ struct Pairing {
   LandmarkId landmark{};
   double distance2 = 0.0;  ///< alone
   double cost = 0.0;       ///< distance2, and by how much the looks differ
+  /// Logarithm of how many detections of something else lie in one unit of what is measured
+  /// (1/rad, 1/(rad m)).
+  double log_clutter = 0.0;
 };
 
 /// All pairings of a frame and how their innovations hang together: pairing i has the rows
@@ -42,6 +45,13 @@ std::vector<std::size_t> jointPairings(const JointPairings& joint, double probab
 /// gate once all of that set have corrected the state (one-point RANSAC, Civera, Grasa, Davison and
 /// Montiel 2010; linear, on S alone). `probability`: of the last chi-square test.
 std::vector<std::size_t> consensusPairings(const JointPairings& joint, double probability);
+
+/// What is left of a set when each of its pairings, given the rest, is likelier than that something
+/// else was detected there; the unlikeliest go first. A lone bearing says little to a robot that is
+/// unsure of itself, several that fit together a lot. (The score of a track in multiple hypothesis
+/// tracking, Blackman 2004; the density given the rest after Rasmussen and Williams 2006, 5.4.2.)
+std::vector<std::size_t> likelierThanClutter(const JointPairings& joint,
+                                             std::vector<std::size_t> set);
 
 /// The squared joint Mahalanobis distance of a set; infinite when its S is singular.
 double jointDistance2(const JointPairings& joint, const std::vector<std::size_t>& set);

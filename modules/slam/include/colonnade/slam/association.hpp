@@ -26,6 +26,7 @@ struct Association {
 /// Pairs within the chi-square gate of their kind that look alike; of those the nearest or, with
 /// jcbb, the largest set that passes the chi-square test of all its numbers together, each landmark
 /// and each detection used once. Where a frame holds many, one-point RANSAC may choose instead.
+/// What is no likelier than that something else was detected there is left out.
 class Associator {
  public:
   explicit Associator(const AssociationOptions& options) : options_(options) {}
