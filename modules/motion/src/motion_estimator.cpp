@@ -9,6 +9,7 @@
 #include "floor_tracker.hpp"
 #include "fusion.hpp"
 #include "planar_reduction.hpp"
+#include "wheel_calibration.hpp"
 #include "wheel_odometry.hpp"
 
 namespace colonnade {
@@ -37,11 +38,15 @@ const char* name(MotionSource source) {
 
 struct MotionEstimator::Impl {
   Impl(const MotionOptions& motion_options, std::shared_ptr<CameraTracker> camera_tracker)
-      : options(motion_options), tracker(std::move(camera_tracker)), floor(motion_options) {}
+      : options(motion_options),
+        tracker(std::move(camera_tracker)),
+        floor(motion_options),
+        calibration(motion_options) {}
 
   MotionOptions options;
   std::shared_ptr<CameraTracker> tracker;
   FloorTracker floor;
+  WheelCalibration calibration;
   std::optional<std::size_t> previous_index;
   double previous_stamp_s = 0.0;
   std::optional<OdometryReading> previous_odometry;
@@ -124,7 +129,9 @@ struct MotionEstimator::Impl {
   }
 
   MotionIncrement measure(const Frame& frame, const MountingAtFrame& mounting, double dt_s) {
-    auto wheels = byWheels(frame);
+    const auto read = byWheels(frame);
+    auto wheels = read;
+    if (wheels) wheels = calibration.corrected(*wheels);
     auto camera = byCamera(frame, mounting);
     if (!frame.depth_m.empty()) floor.reset();
     if (!camera) camera = byFloor(frame, wheels, dt_s);
@@ -132,9 +139,11 @@ struct MotionEstimator::Impl {
     if (camera && wheels && camera->source == MotionSource::kFloor && isSharpTurn(*wheels))
       camera.reset();
     if (wheels && camera && camera->source != MotionSource::kConstantVelocity &&
-        isWithinReach(*wheels))
-      return contradictsWheels(frame, *camera) ? fuseDoubted(*wheels, *camera)
-                                               : fuse(*wheels, *camera);
+        isWithinReach(*wheels)) {
+      if (contradictsWheels(frame, *camera)) return fuseDoubted(*wheels, *camera);
+      calibration.learn(*read, *camera);
+      return fuse(*wheels, *camera);
+    }
     if (wheels) return *wheels;
     return camera ? *camera : coast(dt_s);
   }
