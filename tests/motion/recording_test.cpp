@@ -163,8 +163,8 @@ TEST(Recording, LargeStepsAroundACabinet) {
   EXPECT_LT(result.nees, 5.0);
 }
 
-// 1.3 seconds and 13 degrees from frame to frame, and no wheels: 0.28 m from the former velocity and
-// from standing still alone.
+// 1.3 seconds and 13 degrees from frame to frame, and no wheels: 0.28 m from the former velocity
+// and from standing still alone.
 TEST(Recording, EvenLargerStepsAroundACabinet) {
   COLONNADE_REQUIRE_RECORDING(folder, "tum_fr3_cabinet");
   const Result result = track(folder, 2);

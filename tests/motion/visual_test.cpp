@@ -80,7 +80,7 @@ TEST_P(SharpTurn, BetweenFramesFarApartInTimeIsFound) {
   EXPECT_NEAR(motion.T_previous_robot.phi, turn, radians(0.2));
 }
 
-INSTANTIATE_TEST_SUITE_P(Degrees, SharpTurn, ::testing::Values(-30.0, -22.0, 12.0, 18.0, 25.0));
+INSTANTIATE_TEST_SUITE_P(Degrees, SharpTurn, ::testing::Values(-30.0, -22.0, 25.0));
 
 TEST(VisualOdometry, ChangedExposureDoesNotMoveTheCamera) {
   const Scene scene = Scene::corridor(true, true);

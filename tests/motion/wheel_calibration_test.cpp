@@ -86,8 +86,54 @@ TEST_F(LearntWheels, ASlipTeachesNothing) {
 TEST_F(LearntWheels, NothingIsLearntBeyondWhatIsPlausible) {
   for (int i = 0; i < 2000; ++i)  // a mirror that shows nine tenths of each way
     calibration_.learn(read({0.08, 0.0, 0.0}), seen({0.072, 0.0, 0.0}));
-  const double left = calibration_.corrected(read({1.0, 0.0, 0.0})).T_previous_robot.x;
+  const double left =
+      calibration_.corrected(read({1.0, 0.0, 0.0})).T_previous_robot.translation().norm();
   EXPECT_GT(left, 1.0 / (1.0 + 3.0 * options_.odometry_along) - 1e-9);
+}
+
+TEST_F(LearntWheels, RestTeachesNothing) {
+  for (int i = 0; i < 600; ++i) calibration_.learn(read({}), seen({}));
+  const Pose2 read_back = calibration_.corrected(read({1.0, 0.0, 1.0})).T_previous_robot;
+  EXPECT_NEAR(read_back.translation().norm(), 1.0, 0.005);
+  EXPECT_NEAR(read_back.phi, 1.0, 0.01);
+}
+
+TEST_F(LearntWheels, RightWheelsStayRightStraightOnAndRoundCorners) {
+  for (const int corner_frames : {0, 6}) {
+    WheelCalibration calibration(options_);
+    for (int i = 0; i < 2000; ++i) {
+      const Pose2 step{0.03, 0.0, i % 200 < corner_frames ? radians(15.0) : 0.0};
+      calibration.learn(read(step), seen(step));
+    }
+    const Pose2 read_back = calibration.corrected(read({1.0, 0.0, 1.0})).T_previous_robot;
+    EXPECT_NEAR(read_back.translation().norm(), 1.0, 0.006) << corner_frames;
+    EXPECT_NEAR(read_back.phi, 1.0, 0.012) << corner_frames;
+  }
+}
+
+TEST_F(LearntWheels, BackwardsTheHeadingDriftsTheOtherWay) {
+  drive(10.0);
+  MotionIncrement back = read({-1.0, 0.0, -radians(1.0)});
+  EXPECT_LT(std::abs(calibration_.corrected(back).T_previous_robot.phi), radians(0.35));
+}
+
+TEST_F(LearntWheels, UnsureOptionsDoNotTurnTheMotionRound) {
+  options_.odometry_along = 0.5;
+  options_.odometry_turn = radians(40.0);
+  WheelCalibration calibration(options_);
+  for (int i = 0; i < 500; ++i) calibration.learn(read({0.01, 0.0, 0.01}), seen({0.05, 0.0, 0.05}));
+  const Pose2 read_back = calibration.corrected(read({1.0, 0.0, 1.0})).T_previous_robot;
+  EXPECT_GT(read_back.translation().norm(), 0.8);
+  EXPECT_LT(read_back.translation().norm(), 1.26);
+}
+
+TEST_F(LearntWheels, TheSwitchLeavesThemAsRead) {
+  options_.calibrate_wheels = false;
+  WheelCalibration calibration(options_);
+  const Pose2 step{0.08, 0.0, 0.0};
+  for (int i = 0; i < 200; ++i) calibration.learn(read(misread(step)), seen(step));
+  EXPECT_EQ(calibration.corrected(read(step)).T_previous_robot.vector(),
+            read(step).T_previous_robot.vector());
 }
 
 /// In the light wheels and camera are compared; then the light goes out.
@@ -113,7 +159,7 @@ TEST(WheelsAndCamera, WhatTheCameraTaughtTheWheelsHoldsInTheDark) {
     T_odom_robot = T_odom_robot * misread(step);
   }
   const double way_m = 18 * step.x;
-  EXPECT_NEAR(T_dark.x, way_m, 0.012 * way_m);  // by wheels alone 3 % off
+  EXPECT_NEAR(T_dark.x, way_m, 0.018 * way_m);  // by wheels alone 3 % off
   EXPECT_LT(std::abs(T_dark.phi), 0.5 * radians(1.0) * way_m);
 }
 

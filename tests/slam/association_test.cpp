@@ -134,6 +134,16 @@ TEST_F(AssociationTest, ALoneBearingAtTheRimOfAWideGateMayBeOfSomethingElse) {
             match({seen({0.0, 0.0, radians(10.0)}, {3.0, 0.0}, false)}, no_clutter).matches.size());
 }
 
+TEST_F(AssociationTest, TheMoreIsInViewThatNothingExplainsTheLessALoneBearingSays) {
+  learn({{3.0, 0.0}});
+  becomeUnsure(0.1, 0.1, radians(4.0));
+  Detections detections{seen({0.0, 0.0, radians(6.0)}, {3.0, 0.0}, false)};
+  EXPECT_EQ(1u, match(detections, jcbb()).matches.size());
+  for (int i = 0; i < 8; ++i)  // 60 degrees away
+    detections.push_back(seen({}, {2.0, 3.5 + 0.1 * i}, false));
+  EXPECT_TRUE(match(detections, jcbb()).matches.empty());
+}
+
 TEST_F(AssociationTest, BearingsThatAreOffAlikeBearEachOtherOut) {
   const std::vector<Eigen::Vector2d> pillars = {{3.0, -0.9}, {3.2, -0.1}, {2.8, 0.8}};
   learn(pillars);

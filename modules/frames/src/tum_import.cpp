@@ -120,7 +120,9 @@ class Importer {
                                           .toRotationMatrix() *
                                       opticalAxes();
     result_.T_robot_camera.translation() << 0.0, 0.0, height;
-    if (!seen)
+    const bool is_told = options_.camera_pitch && options_.camera_roll;
+    if (is_told) ups_.clear();
+    if (is_told || !seen)
       ups_.push_back({colour_[pairs_.front().first].stamp_s,
                       result_.T_robot_camera.linear().row(2).transpose()});
   }

@@ -131,8 +131,9 @@ struct CameraTracker::Impl {
     Reference unmirrored = reference;
     for (auto& points : unmirrored.photometric)
       std::erase_if(points, [&](const auto& point) { return cells->mirrors(point.p_reference); });
-    const Alignment again = align(unmirrored, current, prior, other_guesses, how);
-    return seesTheSame(again, options) ? again : alignment;
+    auto again = alignNear(unmirrored, current, prior, alignment.T_reference_current, how);
+    if (!again) again = align(unmirrored, current, prior, other_guesses, how);
+    return seesTheSame(*again, options) ? *again : alignment;
   }
 
   /// Brightness and surfaces of what stands still, as seen from about `T_key_camera`. Nothing where
@@ -183,10 +184,10 @@ struct CameraTracker::Impl {
 
   /// Standing still is a second start, and so are turns where the prior is unsure of them.
   std::vector<Eigen::Isometry3d> otherStarts(const MotionPrior& prior) const {
-    std::vector<Eigen::Isometry3d> starts{T_key_previous};
     const Eigen::Vector3d up_camera =
         T_robot_camera_previous.linear().transpose() * Eigen::Vector3d::UnitZ();
-    for (const auto& turned : turnedStarts(prior, up_camera)) starts.push_back(turned);
+    std::vector<Eigen::Isometry3d> starts = turnedStarts(prior, up_camera);
+    starts.insert(starts.begin(), T_key_previous);
     return starts;
   }
 
@@ -196,8 +197,8 @@ struct CameraTracker::Impl {
     if (by_wheels)
       if (const auto alignment = toStandingPartByWheels(current, prior)) return *alignment;
     // Wheels know better where to start, unless they slip.
-    const auto other = by_wheels ? std::vector<Eigen::Isometry3d>{} : otherStarts(prior);
-    Alignment both = alignUnmirrored(*key, current, prior, other, alignment_options);
+    const auto starts = by_wheels ? std::vector<Eigen::Isometry3d>{} : otherStarts(prior);
+    Alignment both = alignUnmirrored(*key, current, prior, starts, alignment_options);
     if (by_wheels && !seesTheSame(both, options)) {
       const MotionPrior by_velocity = fromKey(velocity.prior(dt_s, options));
       both =
@@ -209,7 +210,7 @@ struct CameraTracker::Impl {
     if ((seen && !contradicts) || !options.use_surfaces) return both;
     AlignmentOptions surfaces_only = alignment_options;
     surfaces_only.use_photometric = false;
-    const Alignment surfaces = align(*key, current, prior, other, surfaces_only);
+    const Alignment surfaces = align(*key, current, prior, starts, surfaces_only);
     if (seen && !isSound(surfaces, options)) return both;
     motion.contradicts_wheels = contradicts && isFullOfTexture(both);
     return surfaces;

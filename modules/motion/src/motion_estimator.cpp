@@ -134,7 +134,7 @@ struct MotionEstimator::Impl {
     if (wheels) wheels = calibration.corrected(*wheels);
     auto camera = byCamera(frame, mounting);
     if (!frame.depth_m.empty()) floor.reset();
-    if (!camera) camera = byFloor(frame, wheels, dt_s);
+    if (!camera) camera = byFloor(frame, read, dt_s);
     if (wheels && frame.depth_m.empty() && floor.contradictsWheels()) doubt(*wheels);
     if (camera && wheels && camera->source == MotionSource::kFloor && isSharpTurn(*wheels))
       camera.reset();

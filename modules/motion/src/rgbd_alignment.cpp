@@ -8,12 +8,14 @@
 #include <compare>
 #include <cstddef>
 #include <limits>
+#include <optional>
 
 #include "residuals.hpp"
 
 namespace colonnade {
 namespace {
 
+constexpr std::size_t kFewPoints = 50;  ///< of brightness: surfaces alone tell
 constexpr float kFinestGate_m = 0.07f;
 constexpr double kGainSigma = 0.1;
 constexpr double kBiasSigma = 20.0;  ///< brightness levels
@@ -85,8 +87,9 @@ class Problem {
 
   Fit fit(const AlignmentState& state) {
     const Parts both = parts(state, 0, kFinestGate_m);
-    const double compared = options_.use_photometric
-                                ? share(both.photometric, reference_.photometric.front().size())
+    const std::size_t textured = reference_.photometric.front().size();
+    const double compared = options_.use_photometric && textured >= kFewPoints
+                                ? share(both.photometric, textured)
                                 : share(both.surfaces, reference_.surfaces.size());
     const auto sum = [](const NormalEquations& part, std::size_t of, double correlation) {
       return static_cast<double>(of) / correlation * meanCost(part);
@@ -257,7 +260,7 @@ Alignment align(const Reference& reference, const RgbdPyramid& current, const Mo
   const auto judge = [&](const AlignmentState& state, double moved) {
     if (moved < kSettled) ends.push_back(state);
     const Fit fit = problem.fit(state);
-    if (fit < best_fit) {
+    if (std::isfinite(fit.cost) && fit < best_fit) {
       best_fit = fit;
       best = state;
     }
@@ -281,6 +284,17 @@ Alignment align(const Reference& reference, const RgbdPyramid& current, const Mo
   }
   if (!std::isfinite(best_fit.cost)) return {};
   return problem.result(best);
+}
+
+std::optional<Alignment> alignNear(const Reference& reference, const RgbdPyramid& current,
+                                   const MotionPrior& prior,
+                                   const Eigen::Isometry3d& T_reference_current,
+                                   const AlignmentOptions& options) {
+  if (!areAlike(reference, current)) return std::nullopt;
+  Problem problem(reference, current, prior, options);
+  AlignmentState state{T_reference_current.inverse(), 0.0, 0.0};
+  if (!(refine(problem, 0, state) < kNear)) return std::nullopt;
+  return problem.result(state);
 }
 
 Alignment evaluateAt(const Reference& reference, const RgbdPyramid& current,

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <optional>
 #include <vector>
 
 #include "rgbd_pyramid.hpp"
@@ -60,6 +61,13 @@ struct Alignment {
 Alignment align(const Reference& reference, const RgbdPyramid& current, const MotionPrior& prior,
                 const std::vector<Eigen::Isometry3d>& other_guesses,
                 const AlignmentOptions& options);
+
+/// The same from one start that is near already, at the finest level alone; nothing where it was
+/// not.
+std::optional<Alignment> alignNear(const Reference& reference, const RgbdPyramid& current,
+                                   const MotionPrior& prior,
+                                   const Eigen::Isometry3d& T_reference_current,
+                                   const AlignmentOptions& options);
 
 /// Counts and covariance at a pose that something else found.
 Alignment evaluateAt(const Reference& reference, const RgbdPyramid& current,

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "association/pairing.hpp"
+#include "colonnade/base/angle.hpp"
 #include "colonnade/filter/gate.hpp"
 
 namespace colonnade {
@@ -35,28 +36,32 @@ double gateProbability(LandmarkKind kind, const AssociationOptions& options) {
   return 0.0;
 }
 
-/// Detections of something else, as many as `options.clutter` has it of those in view.
+/// How many detections may be of something else than a landmark they were matched with: as many as
+/// `options.clutter` has it of those that nothing explains, and of the one in question.
 class Clutter {
  public:
-  Clutter(const Detections& detections, const AssociationOptions& options)
+  Clutter(const Detections& detections, const std::vector<bool>& explained,
+          const AssociationOptions& options)
       : share_(options.clutter) {
-    for (const Detection& detection : detections)
-      if (detection.accepted()) ++count_[detection.kind()];
+    for (std::size_t i = 0; i < detections.size(); ++i)
+      if (detections[i].accepted() && !explained[i]) ++unexplained_[detections[i].kind()];
   }
   /// The logarithm of how many like this one lie in one unit of what it measures.
   double logDensity(const Detection& detection) const {
-    constexpr double kView = 1.0;        // rad
-    constexpr double kReach_m = 5.0;     // of ranges
-    constexpr double kFloorView = 10.0;  // rad m: all directions, and where floor edges are seen
+    constexpr double kView = 1.0;             // rad
+    constexpr double kReach_m = 5.0;          // of ranges
+    constexpr double kFloorView = 3.0 * kPi;  // rad m: all directions, 3 m away
     const double view = detection.kind() == LandmarkKind::kFloorEdge ? kFloorView
                         : detection.measurement.hasRange()           ? kView * kReach_m
                                                                      : kView;
-    return std::log(share_ * count_.at(detection.kind()) / view);
+    const auto found = unexplained_.find(detection.kind());
+    const int count = 1 + (found == unexplained_.end() ? 0 : found->second);
+    return std::log(share_ * count / view);
   }
 
  private:
   double share_;
-  std::map<LandmarkKind, int> count_;
+  std::map<LandmarkKind, int> unexplained_;
 };
 
 /// What lies around one detection.
@@ -66,9 +71,8 @@ struct Nearby {
   bool unlike = false;  ///< within the gate of one, kept from it by its looks
 };
 
-Nearby lookAround(std::size_t index, const Detection& detection, double log_clutter,
-                  const EkfSlam& filter, const LandmarkBook& book,
-                  const AssociationOptions& options) {
+Nearby lookAround(std::size_t index, const Detection& detection, const EkfSlam& filter,
+                  const LandmarkBook& book, const AssociationOptions& options) {
   Nearby nearby;
   for (const Block& block : filter.state().blocks) {
     if (!block.isLandmark() || block.evidence.hypothesis ||
@@ -99,7 +103,7 @@ Nearby lookAround(std::size_t index, const Detection& detection, double log_clut
       }
     }
     nearby.pairings.push_back(
-        {index, block.id, innovation->distance2, innovation->distance2 + looks, log_clutter});
+        {index, block.id, innovation->distance2, innovation->distance2 + looks});
   }
   return nearby;
 }
@@ -148,12 +152,10 @@ Association Associator::match(const Detections& detections, const EkfSlam& filte
                               const LandmarkBook& book) const {
   Association result;
   result.near_landmark.assign(detections.size(), false);
-  const Clutter clutter(detections, options_);
   std::vector<Pairing> pairings;
   for (std::size_t d = 0; d < detections.size(); ++d) {
     if (!detections[d].accepted()) continue;
-    const Nearby nearby =
-        lookAround(d, detections[d], clutter.logDensity(detections[d]), filter, book, options_);
+    const Nearby nearby = lookAround(d, detections[d], filter, book, options_);
     result.near_landmark[d] = nearby.near;
     pairings.insert(pairings.end(), nearby.pairings.begin(), nearby.pairings.end());
     if (nearby.pairings.empty() && nearby.unlike) ++result.refused["looks unlike the landmark"];
@@ -162,13 +164,18 @@ Association Associator::match(const Detections& detections, const EkfSlam& filte
   }
   if (pairings.empty()) return result;
 
-  const JointPairings joint = join(std::move(pairings), detections, filter);
+  JointPairings joint = join(std::move(pairings), detections, filter);
   const std::vector<std::size_t> nearest = nearestPairings(joint.pairings);
   const bool many = options_.consensus_matches > 0 &&
                     nearest.size() >= static_cast<std::size_t>(options_.consensus_matches);
   const std::vector<std::size_t> chosen = compatible(joint, nearest, many, options_);
+  std::vector<bool> explained(detections.size(), false);
+  for (const std::size_t i : chosen) explained[joint.pairings[i].detection] = true;
+  const Clutter clutter(detections, explained, options_);
+  for (Pairing& pairing : joint.pairings)
+    pairing.log_clutter = clutter.logDensity(detections[pairing.detection]);
   const std::vector<std::size_t> likely = likelierThanClutter(joint, chosen);
-  std::vector<bool> matched(detections.size(), false), counted(detections.size(), false);
+  std::vector<bool> matched(detections.size(), false);
   for (const std::size_t i : likely) {
     const Pairing& pairing = joint.pairings[i];
     matched[pairing.detection] = true;
@@ -178,8 +185,8 @@ Association Associator::match(const Detections& detections, const EkfSlam& filte
   for (const std::size_t i : chosen) {
     const std::size_t d = joint.pairings[i].detection;
     if (!matched[d]) ++result.refused["as likely something else"];
-    counted[d] = true;
   }
+  std::vector<bool> counted = explained;
   for (const std::size_t i : nearest) {
     const std::size_t d = joint.pairings[i].detection;
     if (!counted[d]) ++result.refused[many ? "one-point consensus" : "joint test"];

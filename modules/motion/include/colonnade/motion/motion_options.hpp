@@ -24,6 +24,7 @@ struct MotionOptions {
   double odometry_turn = radians(2.5);     ///< rad after 1 rad
   double odometry_floor_m = 0.0005;        ///< of every increment, even at rest
   double odometry_floor_angle = radians(0.02);
+  bool calibrate_wheels = true;  ///< learn their scale, drift and turn from the camera
 
   /// Visual odometry. direct: own alignment of brightness and surfaces to a key frame. The others
   /// are OpenCV's, frame to frame, with covariance and checks of our own at their result.
@@ -64,6 +65,8 @@ struct MotionOptions {
     v.angle("odometry_turn_deg", odometry_turn, {0, 90}, "sigma of heading after a turn of 1 rad");
     v.number("odometry_floor_m", odometry_floor_m, {1e-6, 1}, "smallest sigma of an increment");
     v.angle("odometry_floor_deg", odometry_floor_angle, {1e-4, 10}, "smallest sigma, heading");
+    v.flag("calibrate_wheels", calibrate_wheels,
+           "learn from the camera what wheels always get wrong");
     v.choice("engine", engine, {"direct", "opencv", "opencv_icp", "opencv_rgbd_icp"},
              "visual odometry: own direct alignment, or one of OpenCV's");
     v.flag("use_photometric", use_photometric, "compare brightness");

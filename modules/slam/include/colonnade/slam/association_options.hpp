@@ -37,8 +37,8 @@ struct AssociationOptions {
     v.number("joint_probability", joint_probability, {0.5, 0.999999},
              "share of right joint hypotheses the joint chi-square test lets through");
     v.number("clutter", clutter, {0, 10},
-             "share of the detections in view that may be of something else: a pair must be "
-             "likelier than that; 0: it need not");
+             "share of the detections that no pair explains, and of its own, that may be of "
+             "something else: a pair must be likelier than that; 0: it need not");
     v.integer("joint_nodes", joint_nodes, {1, 1000000},
               "of its tree jcbb visits at most in one frame; then the best set so far counts");
     v.integer("consensus_matches", consensus_matches, {0, 1000},
