@@ -9,7 +9,6 @@
 namespace colonnade {
 namespace {
 
-constexpr int kMinPoints = 50;      ///< of one kind, to rely on it
 constexpr int kMuchTexture = 1500;  ///< before bare walls there are a few hundred points
 constexpr double kMinAgreement = 0.15;
 constexpr double kSurprise = 22.46;  ///< chi squared, 6 degrees of freedom, 0.1 %
@@ -19,16 +18,16 @@ double angleOf(const Eigen::Isometry3d& T) { return Eigen::AngleAxisd(T.linear()
 }  // namespace
 
 bool seesTheSame(const Alignment& alignment, const MotionOptions& options) {
-  return alignment.photometric_count >= kMinPoints &&
+  return alignment.photometric_count >= kPointsToRelyOn &&
          alignment.photometric_share >= options.min_share &&
          alignment.gradient_agreement >= kMinAgreement;
 }
 
 bool isSound(const Alignment& alignment, const MotionOptions& options) {
   return alignment.converged &&
-         (seesTheSame(alignment, options) ||
-          (alignment.photometric_count < kMinPoints && alignment.surface_count >= kMinPoints &&
-           alignment.surface_share >= options.min_share));
+         (seesTheSame(alignment, options) || (alignment.photometric_count < kPointsToRelyOn &&
+                                              alignment.surface_count >= kPointsToRelyOn &&
+                                              alignment.surface_share >= options.min_share));
 }
 
 bool isFullOfTexture(const Alignment& alignment) {
@@ -56,8 +55,8 @@ bool isWornOut(const Alignment& alignment, const MotionOptions& options) {
 }
 
 MotionSource sourceOf(const Alignment& alignment) {
-  if (alignment.photometric_count < kMinPoints) return MotionSource::kIcp;
-  if (alignment.surface_count < kMinPoints) return MotionSource::kPhotometric;
+  if (alignment.photometric_count < kPointsToRelyOn) return MotionSource::kIcp;
+  if (alignment.surface_count < kPointsToRelyOn) return MotionSource::kPhotometric;
   return MotionSource::kPhotometricIcp;
 }
 

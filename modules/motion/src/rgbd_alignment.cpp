@@ -15,7 +15,6 @@
 namespace colonnade {
 namespace {
 
-constexpr std::size_t kFewPoints = 50;  ///< of brightness: surfaces alone tell
 constexpr float kFinestGate_m = 0.07f;
 constexpr double kGainSigma = 0.1;
 constexpr double kBiasSigma = 20.0;  ///< brightness levels
@@ -88,7 +87,7 @@ class Problem {
   Fit fit(const AlignmentState& state) {
     const Parts both = parts(state, 0, kFinestGate_m);
     const std::size_t textured = reference_.photometric.front().size();
-    const double compared = options_.use_photometric && textured >= kFewPoints
+    const double compared = options_.use_photometric && textured >= kPointsToRelyOn
                                 ? share(both.photometric, textured)
                                 : share(both.surfaces, reference_.surfaces.size());
     const auto sum = [](const NormalEquations& part, std::size_t of, double correlation) {

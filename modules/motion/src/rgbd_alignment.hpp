@@ -11,6 +11,9 @@
 
 namespace colonnade {
 
+/// So many points of brightness, or surfaces, are needed to rely on them.
+inline constexpr int kPointsToRelyOn = 50;
+
 /// What an alignment uses and how far it trusts it.
 struct AlignmentOptions {
   bool use_photometric = true;

@@ -174,18 +174,13 @@ Association Associator::match(const Detections& detections, const EkfSlam& filte
   const Clutter clutter(detections, explained, options_);
   for (Pairing& pairing : joint.pairings)
     pairing.log_clutter = clutter.logDensity(detections[pairing.detection]);
-  const std::vector<std::size_t> likely = likelierThanClutter(joint, chosen);
-  std::vector<bool> matched(detections.size(), false);
-  for (const std::size_t i : likely) {
+  for (const std::size_t i : likelierThanClutter(joint, chosen)) {
     const Pairing& pairing = joint.pairings[i];
-    matched[pairing.detection] = true;
     result.matches.push_back({pairing.landmark, detections[pairing.detection].measurement});
     result.detection_of_match.push_back(pairing.detection);
   }
-  for (const std::size_t i : chosen) {
-    const std::size_t d = joint.pairings[i].detection;
-    if (!matched[d]) ++result.refused["as likely something else"];
-  }
+  if (const std::size_t dropped = chosen.size() - result.matches.size(); dropped > 0)
+    result.refused["as likely something else"] += dropped;
   std::vector<bool> counted = explained;
   for (const std::size_t i : nearest) {
     const std::size_t d = joint.pairings[i].detection;
