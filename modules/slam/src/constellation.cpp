@@ -277,7 +277,6 @@ LoopCandidate findConstellation(const std::vector<LandmarkId>& sleeping,
     double joint2 = 0.0;
     const auto members = grow(pairs, seed, joint2);
     for (const std::size_t i : members) explained[i] = true;
-    if (members.size() < 3) continue;
     found.push_back(describe(pairs, members, joint2, recent, filter, book));
   }
   if (found.empty()) return candidate;
@@ -291,7 +290,6 @@ LoopCandidate findConstellation(const std::vector<LandmarkId>& sleeping,
     if ((other.shift - candidate.best.shift).norm() > options.distinct_m &&
         other.places > options.ambiguity * candidate.best.places)
       candidate.refusal = "another constellation fits as well";
-  if (candidate.refusal.empty() && candidate.cues.empty()) candidate.refusal = "no second cue";
   return candidate;
 }
 

@@ -132,6 +132,8 @@ void LandmarkBook::merge(LandmarkId kept, LandmarkId twin, const State& state) {
   page.looks.merge(looksInAxesOf(kept, twin, state));
   page.first_m = std::min(page.first_m, other.first_m);
   page.last_m = std::max(page.last_m, other.last_m);
+  page.asleep = page.asleep && other.asleep;
+  page.estranged = page.estranged && other.estranged;
   for (const auto& [id, count] : other.partners)
     if (id != kept) page.partners[id] += count;
   page.company.insert(other.company.begin(), other.company.end());

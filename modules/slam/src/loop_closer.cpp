@@ -13,6 +13,7 @@ constexpr double kYoungTrail_m = 3.0;      ///< of the way just driven that is n
 constexpr double kOnTrail_m = 1.5;         ///< from a pose of the trail
 constexpr double kAfterNewGround_m = 4.0;  ///< way within which a return is recognised
 constexpr double kSamePlace_m = 0.10;
+constexpr double kFoundTwice_m = 0.06;  ///< what was found twice moves less when it is made one
 
 /// Whether another landmark of its kind and looks stands so near that it may be taken for it.
 /// Floor edges run along each other everywhere: they always have one.
@@ -25,6 +26,19 @@ bool hasDouble(const Block& block, double near_m, const State& state, const Land
            (state.x.segment<2>(other.offset) - p).norm() < near_m &&
            book.lookAlike(block.id, other.id, state);
   });
+}
+
+/// Of a robot that the filter is right about, however many places it sees: nothing has drifted that
+/// the filter does not know of, but nothing else may fit either.
+LoopOptions sureOfPlace(LoopOptions options) {
+  options.min_places = 1;
+  options.min_spread_m = options.drift_share = options.drift_turn = 0.0;
+  options.twin_place_m = TwinNoise{}.place_m;
+  options.twin_direction = TwinNoise{}.direction;
+  options.joint_probability = 0.9;
+  options.distinct_m = 0.04;  // edges of one frame are distinct
+  options.ambiguity = 0.8;
+  return options;
 }
 
 }  // namespace
@@ -59,14 +73,17 @@ void LoopCloser::updateSleep(const EkfSlam& filter, LandmarkBook& book) {
   }
 }
 
+bool LoopCloser::isComparable(const Block& block) const {
+  return block.isLandmark() && !block.evidence.hypothesis &&
+         block.evidence.observations >= options_.min_observations;
+}
+
 std::optional<LoopCandidate> LoopCloser::step(const EkfSlam& filter, const LandmarkBook& book) {
   if (!options_.enabled || book.way() - searched_m_ < options_.try_every_m) return std::nullopt;
   searched_m_ = book.way();
   std::vector<LandmarkId> sleeping, recent;
   for (const Block& block : filter.state().blocks) {
-    if (!block.isLandmark() || block.evidence.hypothesis ||
-        block.evidence.observations < options_.min_observations)
-      continue;
+    if (!isComparable(block)) continue;
     if (book.isAsleep(block.id))
       sleeping.push_back(block.id);
     else if (!filter.isFixed(block.id) &&
@@ -74,6 +91,7 @@ std::optional<LoopCandidate> LoopCloser::step(const EkfSlam& filter, const Landm
       recent.push_back(block.id);
   }
   last_ = findConstellation(sleeping, recent, filter, book, options_);
+  if (last_.refusal.empty() && last_.cues.empty()) last_.refusal = "no second cue";
   const auto isSame = [&](const Eigen::Vector2d& shift) {
     return (shift - last_.best.shift).norm() < options_.distinct_m;
   };
@@ -89,6 +107,23 @@ std::optional<LoopCandidate> LoopCloser::step(const EkfSlam& filter, const Landm
   confirmed_ = 0;
   returned_ = true;
   return last_;
+}
+
+std::vector<Twins> LoopCloser::foundTwice(const EkfSlam& filter, const LandmarkBook& book) const {
+  if (!options_.enabled) return {};
+  std::vector<LandmarkId> old, young;
+  for (const Block& block : filter.state().blocks) {
+    if (!isComparable(block) || book.isEstranged(block.id) || filter.isFixed(block.id)) continue;
+    const bool is_young = !book.isAsleep(block.id) &&
+                          book.way() - book.seenOnWay(block.id).first_m < options_.recent_m;
+    if (is_young)
+      young.push_back(block.id);
+    else if (relativeSigma(block.id, filter) < options_.sleep_sigma_alone_m)
+      old.push_back(block.id);
+  }
+  const LoopCandidate found = findConstellation(old, young, filter, book, sureOfPlace(options_));
+  const bool stands = found.refusal.empty() && found.best.shift.norm() < kFoundTwice_m;
+  return stands ? found.best.twins : std::vector<Twins>{};
 }
 
 bool LoopCloser::mayReturn(const LandmarkBook& book) const {

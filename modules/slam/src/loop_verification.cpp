@@ -33,8 +33,8 @@ void Mapper::close(const LoopCandidate& loop, const Observation& seen, std::vect
   for (const Block& block : estimate_.filter.state().blocks)
     if (estimate_.landmarks.isAsleep(block.id)) snapshot.old.insert(block.id);
   const Pose2 before = estimate_.filter.pose();
-  if (!fuse(loop.best.twins, {options.twin_place_m, options.twin_direction}, estimate_.filter,
-            estimate_.landmarks))
+  std::vector<Event> fused;
+  if (!fuseAll(loop.best.twins, {options.twin_place_m, options.twin_direction}, seen, fused))
     return;
   before_return_.reset();
   ++estimate_.closings;
@@ -43,12 +43,7 @@ void Mapper::close(const LoopCandidate& loop, const Observation& seen, std::vect
                     std::to_string(loop.best.twins.size()) + " landmarks at " +
                         std::to_string(loop.best.places) + " places; " + loop.cues +
                         "; the robot moved by " + formatFixed(moved.norm(), 3) + " m"});
-  for (const Twins& twins : loop.best.twins) {
-    estimate_.hallways.merge(twins.kept, twins.twin);
-    estimate_.upkeep.forget(twins.twin);
-    events.push_back({seen.stamp_s, seen.index, "fused", twins.kept,
-                      "with " + std::to_string(number(twins.twin))});
-  }
+  events.insert(events.end(), fused.begin(), fused.end());
   estimate_.landmarks.endEstrangement();
   if (!estimate_.grows || estimate_.filter.isFixed(loop.best.twins.front().kept)) settleInMap();
   if (seen.sight.rays.empty() || options.verify_m <= 0.0) return;

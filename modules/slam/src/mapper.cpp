@@ -150,14 +150,23 @@ void Mapper::keepUp(const Observation& seen, const std::vector<LandmarkId>& matc
     events.push_back({seen.stamp_s, seen.index, "gone", id, "in view and not seen"});
   }
   if (!e.upkeep.lookEnded()) return;
-  for (const Twins& twins : e.upkeep.findTwins(e.filter, e.landmarks)) {
-    if (isYoung(twins.kept) || isYoung(twins.twin) || !fuse({&twins, 1}, {}, e.filter, e.landmarks))
-      continue;
-    e.hallways.merge(twins.kept, twins.twin);
-    e.upkeep.forget(twins.twin);
-    events.push_back({seen.stamp_s, seen.index, "fused", twins.kept,
-                      "with " + std::to_string(number(twins.twin))});
+  if (options_.upkeep.merge_twins)
+    fuseAll(e.loops.foundTwice(e.filter, e.landmarks), {}, seen, events);
+  for (const Twins& twins : e.upkeep.findTwins(e.filter, e.landmarks))
+    if (!isYoung(twins.kept) && !isYoung(twins.twin)) fuseAll({&twins, 1}, {}, seen, events);
+}
+
+bool Mapper::fuseAll(std::span<const Twins> twins, const TwinNoise& noise, const Observation& seen,
+                     std::vector<Event>& events) {
+  auto& e = estimate_;
+  if (twins.empty() || !fuse(twins, noise, e.filter, e.landmarks)) return false;
+  for (const Twins& pair : twins) {
+    e.hallways.merge(pair.kept, pair.twin);
+    e.upkeep.forget(pair.twin);
+    events.push_back({seen.stamp_s, seen.index, "fused", pair.kept,
+                      "with " + std::to_string(number(pair.twin))});
   }
+  return true;
 }
 
 LandmarkMap Mapper::map() const {

@@ -24,6 +24,10 @@ class LoopCloser {
   void updateSleep(const EkfSlam& filter, LandmarkBook& book);
   /// One frame, after the update: a constellation to close the loop with, if there is one.
   std::optional<LoopCandidate> step(const EkfSlam& filter, const LandmarkBook& book);
+  /// Landmarks of long ago that have been founded a second time meanwhile, since they slept for a
+  /// neighbour's sake or were not recognised: how they stand to each other tells which is which,
+  /// where the robot is sure enough of its place and only one way fits.
+  std::vector<Twins> foundTwice(const EkfSlam& filter, const LandmarkBook& book) const;
   /// One frame, after the association's matches are booked: whether the robot came back over new
   /// ground to a place that the association itself knows again, because the way was short or well
   /// measured. Says so once per return; the number of places recognised, else 0.
@@ -38,6 +42,9 @@ class LoopCloser {
   const LoopOptions& options() const { return options_; }
 
  private:
+  /// Seen often enough to be told from others by where it stands.
+  bool isComparable(const Block& block) const;
+
   LoopOptions options_;
   LoopCandidate last_;
   std::vector<Eigen::Vector2d> forbidden_;

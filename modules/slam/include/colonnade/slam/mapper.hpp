@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 #include <set>
+#include <span>
 #include <vector>
 
 #include "colonnade/filter/ekf_slam.hpp"
@@ -18,6 +19,7 @@
 #include "colonnade/slam/map_file.hpp"
 #include "colonnade/slam/observation.hpp"
 #include "colonnade/slam/trail.hpp"
+#include "colonnade/slam/twins.hpp"
 #include "colonnade/slam/upkeep.hpp"
 
 namespace colonnade {
@@ -112,6 +114,9 @@ class Mapper {
   MapperReport advance(const Observation& seen);
   void keepUp(const Observation& seen, const std::vector<LandmarkId>& matched,
               std::vector<Event>& events);
+  /// Makes twins one in all that knows of them; false, and nothing changed, when the filter cannot.
+  bool fuseAll(std::span<const Twins> twins, const TwinNoise& noise, const Observation& seen,
+               std::vector<Event>& events);
   void close(const LoopCandidate& loop, const Observation& seen, std::vector<Event>& events);
   void settleInMap();
   void awaitReturn();
