@@ -179,12 +179,13 @@ void run(int landmarks, int steps, const Flags& flags) {
   Field field(landmarks, flags.hidden);
   Times ours_times, naive_times, davison_times;
   const int births = (landmarks + static_cast<int>(kBirths) - 1) / static_cast<int>(kBirths);
-  for (int i = 0; i < births + steps; ++i) {
+  // What the last births leave to be done is done in the step after them.
+  for (int i = 0; i <= births + steps; ++i) {
     Step step = field.next();
-    measure(ours, step, i < births ? nullptr : &ours_times);
+    measure(ours, step, i <= births ? nullptr : &ours_times);
     if (!with_mrpt) continue;
-    measure(naive, step, i < births ? nullptr : &naive_times);
-    measure(davison, step, i < births ? nullptr : &davison_times);
+    measure(naive, step, i <= births ? nullptr : &naive_times);
+    measure(davison, step, i <= births ? nullptr : &davison_times);
   }
   print(landmarks, "Colonnade", ours_times, ours_times.mean());
   if (!with_mrpt) return;

@@ -20,7 +20,7 @@ using Indices = std::vector<Index>;
 constexpr Index kRows = RowPanels::kRows;
 
 /// What is negligible is judged on at most about so many rows, evenly spread over all that rest ...
-constexpr std::size_t kRowsJudged = 800;
+constexpr std::size_t kRowsJudged = 400;
 /// ... as many together as lie in one line of the cache.
 constexpr std::size_t kRowsTogether = 8;
 
