@@ -97,6 +97,35 @@ TEST(FloorEdgeDetector, TakesTheFootOfAWallAndNotAJointOfTheFloorBeforeIt) {
   EXPECT_GE(joints, 1);
 }
 
+TEST(FloorEdgeDetector, WithoutDepthALineWithTheSameFloorOnBothSidesIsAJoint) {
+  for (const double skirting_gray : {110.0, 40.0}) {  // none, and a dark one
+    Scene scene = corridor();
+    scene.faces.push_back({{-1.0, 1.095}, {4.5, 1.095}, skirting_gray, 0.0, 0.1});
+    for (const double y_m : {-0.6, 0.5}) scene.strips.push_back({{0.5, y_m}, {4.4, y_m}, 0.012});
+    for (const double x_m : {2.0, 2.6}) scene.strips.push_back({{x_m, -1.0}, {x_m, 1.0}, 0.012});
+    Frame frame = withNoise(render(scene, kTilted), 2.0, 7);
+    frame.depth_m.release();
+    int joints = 0, feet = 0;
+    for (const auto& edge : accepted(detectAll(frame), LandmarkKind::kFloorEdge)) {
+      const Eigen::Vector2d middle = 0.5 * (edge.p_robot_a + edge.p_robot_b);
+      const bool is_foot = std::abs(middle.y()) > 1.0 || middle.x() > 4.2;
+      EXPECT_EQ(is_foot, !edge.appearance.joint) << middle.transpose() << " " << skirting_gray;
+      ++(is_foot ? feet : joints);
+    }
+    EXPECT_EQ(feet, 3) << skirting_gray;
+    EXPECT_GE(joints, 4) << skirting_gray;
+  }
+}
+
+TEST(FloorEdgeDetector, WithDepthNoEdgeIsAJoint) {
+  Scene scene = corridor();
+  scene.strips.push_back({{0.5, 0.5}, {4.4, 0.5}, 0.012});
+  for (const auto& edge : accepted(detectAll(render(scene, kTilted)), LandmarkKind::kFloorEdge)) {
+    EXPECT_FALSE(edge.appearance.joint);
+    EXPECT_GT(std::abs(edge.measurement.z[1]), 1.0);
+  }
+}
+
 TEST(FloorEdgeDetector, RefusesPaintOnTheFloorWhenDepthShowsThatItGoesOn) {
   Scene scene;
   scene.faces.push_back({{6.0, -6.0}, {6.0, 6.0}, 150.0});

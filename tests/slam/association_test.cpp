@@ -364,5 +364,40 @@ TEST_F(AssociationTest, NothingIsMatchedWithoutLandmarksOrByNumbersThatAreNotFin
   EXPECT_TRUE(match({}, jcbb()).matches.empty());
 }
 
+/// The line y = `y_m` on the floor, seen from the origin.
+Detection floorLine(double y_m, bool joint) {
+  Detection d;
+  d.measurement.kind = LandmarkKind::kFloorEdge;
+  d.measurement.z = Eigen::Vector2d(0.5 * kPi, y_m);
+  d.measurement.R = Eigen::Vector2d(1e-4, 1e-4).asDiagonal();
+  d.p_robot_a = {1.0, y_m};
+  d.p_robot_b = {2.0, y_m};
+  d.appearance.joint = joint;
+  return d;
+}
+
+TEST_F(AssociationTest, AJointOfTheFloorIsNoFootOfAWall) {
+  const auto learnLine = [&](double y_m, int as_joint, int as_foot) {
+    const LandmarkId id = *filter_.addLandmark(floorLine(y_m, false).measurement);
+    for (int i = 0; i < as_joint + as_foot; ++i)
+      book_.observe(id, floorLine(y_m, i < as_joint), 0.1 * i, filter_);
+    return id;
+  };
+  const LandmarkId joint = learnLine(1.0, 10, 1), foot = learnLine(3.0, 1, 10);
+  const LandmarkId either = learnLine(5.0, 5, 6);
+  EXPECT_TRUE(book_.isJoint(joint));
+  EXPECT_FALSE(book_.isJoint(foot));
+  EXPECT_FALSE(book_.isJoint(either));
+  const auto matched = [&](double y_m, bool as_joint) {
+    return match({floorLine(y_m, as_joint)}, jcbb()).matches.size();
+  };
+  EXPECT_EQ(1U, matched(1.0, true));
+  EXPECT_EQ(0U, matched(1.0, false));
+  EXPECT_EQ(0U, matched(3.0, true));
+  EXPECT_EQ(1U, matched(3.0, false));
+  EXPECT_EQ(1U, matched(5.0, true));  // now seen as the one, now as the other
+  EXPECT_EQ(1U, matched(5.0, false));
+}
+
 }  // namespace
 }  // namespace colonnade

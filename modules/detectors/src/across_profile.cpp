@@ -29,6 +29,10 @@ void addUp(const std::uint8_t* const* rows, std::size_t count, std::uint16_t* su
 }  // namespace
 
 AcrossProfile::AcrossProfile(const cv::Mat& gray, const RefinedLine& line) {
+  if (!line.steep) {
+    addUpFlat(gray, line);
+    return;
+  }
   const double step = std::max(1.0, (line.end - line.begin) / kMostRows);
   std::array<const std::uint8_t*, kMostRows + 2> inside{};  // from the left end of the profile on
   std::size_t count = 0;
@@ -50,6 +54,21 @@ AcrossProfile::AcrossProfile(const cv::Mat& gray, const RefinedLine& line) {
   addUp(inside.data(), count, sums.data());
   const double share = line.gradient_sign / std::max(1.0, static_cast<double>(rows));
   for (std::size_t k = 0; k < sums_.size(); ++k) sums_[k] = (sums_[k] + sums[k]) * share;
+}
+
+void AcrossProfile::addUpFlat(const cv::Mat& gray, const RefinedLine& line) {
+  const double step = std::max(1.0, (line.end - line.begin) / kMostRows);
+  int columns = 0;
+  for (double u = line.begin; u <= line.end; u += step) {
+    const int v = roundToInt(line.across(u)), column = static_cast<int>(u);
+    if (column < 0 || column >= gray.cols || v < 0 || v >= gray.rows) continue;
+    ++columns;
+    for (int k = -kReach_px; k <= kReach_px; ++k)
+      sums_[static_cast<std::size_t>(k + kReach_px)] +=
+          gray.at<std::uint8_t>(std::clamp(v + k, 0, gray.rows - 1), column);
+  }
+  const double share = line.gradient_sign / std::max(1.0, static_cast<double>(columns));
+  for (double& sum : sums_) sum *= share;
 }
 
 int AcrossProfile::peak() const {

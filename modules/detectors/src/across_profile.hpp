@@ -9,7 +9,7 @@
 
 namespace colonnade {
 
-/// Mean gray levels beside a steep line, by distance from it, in the sense of its gradient: they
+/// Mean gray levels beside a line (across: u for steep ones, v for flat ones), by distance from it, in the sense of its gradient: they
 /// rise at 0.
 class AcrossProfile {
  public:
@@ -25,6 +25,7 @@ class AcrossProfile {
   bool isThinLine(int width_px) const;
 
  private:
+  void addUpFlat(const cv::Mat& gray, const RefinedLine& line);
   double rise(int k) const { return at(k + 1) - at(k); }  ///< between k and k + 1
   int peak() const;                                       ///< where it rises most, near the line
   double at(int k) const { return sums_[static_cast<std::size_t>(k + kReach_px)]; }

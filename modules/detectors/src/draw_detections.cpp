@@ -16,6 +16,7 @@ namespace {
 const cv::Scalar kRanged(80, 230, 60);
 const cv::Scalar kBearingOnly(230, 200, 40);
 const cv::Scalar kFloor(0, 190, 255);
+const cv::Scalar kJoint(0, 110, 150);
 const cv::Scalar kCorner(230, 80, 230);
 const cv::Scalar kRefused(60, 60, 220);
 const cv::Scalar kText(235, 235, 235);
@@ -33,7 +34,7 @@ cv::Scalar colourOf(const Detection& detection) {
     case LandmarkKind::kPillarEdge:
       return detection.measurement.hasRange() ? kRanged : kBearingOnly;
     case LandmarkKind::kFloorEdge:
-      return kFloor;
+      return detection.appearance.joint ? kJoint : kFloor;
     case LandmarkKind::kDepthSlope:
       return kCorner;
   }
@@ -45,6 +46,7 @@ std::string labelOf(const Detection& detection) {
   const auto& m = detection.measurement;
   std::string label = formatFixed(degrees(m.z[0]), 1);
   if (m.hasRange()) label += " " + formatFixed(m.z[1], 2) + "m";
+  if (detection.appearance.joint) label += " joint";
   return label;
 }
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "across_profile.hpp"
 #include "colonnade/detectors/depth_noise.hpp"
 #include "colonnade/detectors/levelled_camera.hpp"
 #include "colour_sampling.hpp"
@@ -109,6 +110,22 @@ void addColours(const Frame& frame, const RefinedLine& line, const FloorLine& fl
   detection.appearance.right = far_is_behind ? colours.behind : colours.before;
 }
 
+/// A line with the same floor on both sides: a joint or paint.
+bool isJoint(const Frame& frame, const LevelledCamera& camera, RefinedLine line,
+             const FloorLine& floor_line) {
+  constexpr double kWidest_m = 0.03;
+  const Eigen::Vector2d middle = 0.5 * (floor_line.p_robot_a + floor_line.p_robot_b);
+  const Eigen::Vector2d normal(std::cos(floor_line.z[0]), std::sin(floor_line.z[0]));
+  const Eigen::Vector2d beyond = middle + kWidest_m * normal;
+  const auto a = camera.project({middle.x(), middle.y(), 0.0});
+  const auto b = camera.project({beyond.x(), beyond.y(), 0.0});
+  if (!a || !b) return false;
+  line.begin = floor_line.begin;
+  line.end = floor_line.end;
+  return AcrossProfile(frame.gray, line)
+      .isThinLine(std::max(3, 1 + static_cast<int>((*b - *a).norm())));
+}
+
 double length(const Detection& detection) {
   return (detection.p_robot_b - detection.p_robot_a).norm();
 }
@@ -201,6 +218,7 @@ Detections contactEdges(Detections found, const DepthView& depth, const Levelled
     bool taken = false;
     for (auto& longer : kept) {
       if (!detection.accepted() || !longer.accepted()) continue;
+      if (detection.appearance.joint != longer.appearance.joint) continue;
       const double apart_m = apart(detection, longer);
       // An edge this high above the floor seems to lie so much farther out.
       const double skirting_m = longer.measurement.z[1] * kSkirting_m /
@@ -252,6 +270,8 @@ Detections FloorEdgeDetector::detect(const Frame& frame, const RefinedLines& lin
     const WallVotes votes = askDepth(depth, camera, *floor_line, options_, geometry_);
     detection.refusal = reasonToRefuse(votes, *floor_line, !depth.empty(), options_);
     if (detection.accepted()) addColours(frame, line, *floor_line, detection);
+    detection.appearance.joint =
+        detection.accepted() && depth.empty() && isJoint(frame, camera, line, *floor_line);
     found.push_back(std::move(detection));
   }
   return contactEdges(std::move(found), depth, camera, options_);

@@ -166,6 +166,7 @@ bool LandmarkBook::looksLike(const Block& landmark, const Detection& detection,
   if (page == pages_.end()) return true;
   const LandmarkLooks& looks = page->second.looks;
   if (detection.kind() == LandmarkKind::kPillarEdge) return looks.sameDarkSide(detection);
+  if (!looks.agreesOnJoint(detection)) return false;
   return !isSeenFromOtherSide(landmark, detection, filter) || !looks.hasDarkSide() ||
          looks.sameDarkSide(fromFirstSide(landmark, detection, filter));
 }
@@ -177,6 +178,11 @@ Detection LandmarkBook::fromFirstSide(const Block& landmark, const Detection& de
   seen.appearance.gradient_sign *= -1;
   std::swap(seen.appearance.left, seen.appearance.right);
   return seen;
+}
+
+bool LandmarkBook::isJoint(LandmarkId landmark) const {
+  const LandmarkLooks* known = looks(landmark);
+  return known && known->isJoint();
 }
 
 const LandmarkLooks* LandmarkBook::looks(LandmarkId landmark) const {

@@ -73,8 +73,8 @@ void LoopCloser::updateSleep(const EkfSlam& filter, LandmarkBook& book) {
   }
 }
 
-bool LoopCloser::isComparable(const Block& block) const {
-  return block.isLandmark() && !block.evidence.hypothesis &&
+bool LoopCloser::isComparable(const Block& block, const LandmarkBook& book) const {
+  return block.isLandmark() && !block.evidence.hypothesis && !book.isJoint(block.id) &&
          block.evidence.observations >= options_.min_observations;
 }
 
@@ -83,7 +83,7 @@ std::optional<LoopCandidate> LoopCloser::step(const EkfSlam& filter, const Landm
   searched_m_ = book.way();
   std::vector<LandmarkId> sleeping, recent;
   for (const Block& block : filter.state().blocks) {
-    if (!isComparable(block)) continue;
+    if (!isComparable(block, book)) continue;
     if (book.isAsleep(block.id))
       sleeping.push_back(block.id);
     else if (!filter.isFixed(block.id) &&
@@ -113,7 +113,8 @@ std::vector<Twins> LoopCloser::foundTwice(const EkfSlam& filter, const LandmarkB
   if (!options_.enabled) return {};
   std::vector<LandmarkId> old, young;
   for (const Block& block : filter.state().blocks) {
-    if (!isComparable(block) || book.isEstranged(block.id) || filter.isFixed(block.id)) continue;
+    if (!isComparable(block, book) || book.isEstranged(block.id) || filter.isFixed(block.id))
+      continue;
     const bool is_young = !book.isAsleep(block.id) &&
                           book.way() - book.seenOnWay(block.id).first_m < options_.recent_m;
     if (is_young)

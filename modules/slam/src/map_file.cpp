@@ -14,7 +14,7 @@ namespace colonnade {
 namespace {
 
 constexpr const char* kMagic = "colonnade-map";
-constexpr const char* kVersion = "2";
+constexpr const char* kVersion = "3";
 
 /// FNV-1a, 64 bits (Fowler, Noll, Vo; RFC 9923): finds damage, not malice.
 std::string checksum(std::string_view text) {
@@ -137,6 +137,7 @@ std::string MapFile::text(const SavedMap& map) {
     w.add(id)
         .add(page.looks.gradient_balance_)
         .add(page.looks.sightings_)
+        .add(page.looks.joint_balance_)
         .add(page.looks.width_m_)
         .add(page.first_m)
         .add(page.last_m);
@@ -206,6 +207,7 @@ SavedMap MapFile::read(const std::filesystem::path& path) {
     LandmarkBook::Page& page = map.book.pages_[reader.id()];
     page.looks.gradient_balance_ = reader.integer();
     page.looks.sightings_ = reader.integer(0);
+    page.looks.joint_balance_ = reader.integer();
     page.looks.width_m_ = reader.number();
     page.first_m = reader.number();
     page.last_m = reader.number();

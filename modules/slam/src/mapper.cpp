@@ -171,6 +171,7 @@ bool Mapper::fuseAll(std::span<const Twins> twins, const TwinNoise& noise, const
 
 LandmarkMap Mapper::map() const {
   LandmarkMap map = estimate_.filter.landmarkMap();
+  std::erase_if(map, [&](const auto& record) { return estimate_.landmarks.isJoint(record.id); });
   estimate_.landmarks.fillPairs(map);
   estimate_.hallways.fill(map);
   return map;

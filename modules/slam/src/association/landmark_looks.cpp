@@ -20,6 +20,7 @@ double meanSquare(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
 void LandmarkLooks::observe(const Detection& detection) {
   ++sightings_;
   gradient_balance_ += detection.appearance.gradient_sign;
+  joint_balance_ += detection.appearance.joint ? 1 : -1;
   const float gain = std::max(kLeastGain, 1.0F / static_cast<float>(sightings_));
   left_ += gain * (detection.appearance.left - left_);
   right_ += gain * (detection.appearance.right - right_);
@@ -53,6 +54,7 @@ void LandmarkLooks::merge(const LandmarkLooks& other) {
   if (width_m_ <= 0.0) width_m_ = other.width_m_;
   sightings_ += other.sightings_;
   gradient_balance_ += other.gradient_balance_;
+  joint_balance_ += other.joint_balance_;
 }
 
 LandmarkLooks::Difference LandmarkLooks::difference(const Detection& detection, double colour_sigma,

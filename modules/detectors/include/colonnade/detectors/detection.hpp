@@ -18,6 +18,9 @@ struct Appearance {
   int gradient_sign = 0;                            ///< +1: brighter on its right (or far) side
   Eigen::Vector3f left = Eigen::Vector3f::Zero();   ///< mean B, G, R beside it; gray if no colour
   Eigen::Vector3f right = Eigen::Vector3f::Zero();  ///< (for floor edges: near and far side)
+  /// A line with the same floor on both sides: a joint or paint, where no depth tells it from the
+  /// foot of a wall.
+  bool joint = false;
 };
 
 /// What a frame shows of how tall an upright edge is.

@@ -65,6 +65,9 @@ class LandmarkBook {
   static Detection fromFirstSide(const Block& landmark, const Detection& detection,
                                  const EkfSlam& filter);
 
+  /// Whether it is a line on the floor and no part of the building.
+  bool isJoint(LandmarkId landmark) const;
+
   /// nullptr for a landmark never observed.
   const LandmarkLooks* looks(LandmarkId landmark) const;
 

@@ -18,6 +18,13 @@ class LandmarkLooks {
   /// other.
   bool hasDarkSide() const { return 2 * std::abs(gradient_balance_) > sightings_; }
 
+  /// Whether it was a joint of the floor in most of its sightings.
+  bool isJoint() const { return joint_balance_ > 0; }
+  /// Whether a detection may be of it by that, as far as its sightings agree.
+  bool agreesOnJoint(const Detection& detection) const {
+    return 2 * std::abs(joint_balance_) <= sightings_ || isJoint() == detection.appearance.joint;
+  }
+
   struct Difference {
     double distance2 = 0.0;
     int numbers = 0;  ///< degrees of freedom of distance2: what could be compared
@@ -43,6 +50,7 @@ class LandmarkLooks {
   friend class MapFile;
   int sightings_ = 0;
   int gradient_balance_ = 0;  ///< sightings with the brighter side on the right minus the others
+  int joint_balance_ = 0;     ///< sightings as a joint of the floor minus the others
   Eigen::Vector3f left_ = Eigen::Vector3f::Zero();
   Eigen::Vector3f right_ = Eigen::Vector3f::Zero();
   double width_m_ = 0.0;

@@ -42,8 +42,9 @@ class LoopCloser {
   const LoopOptions& options() const { return options_; }
 
  private:
-  /// Seen often enough to be told from others by where it stands.
-  bool isComparable(const Block& block) const;
+  /// A part of the building seen often enough to be told from others by where it stands; joints of
+  /// the floor repeat too regularly.
+  bool isComparable(const Block& block, const LandmarkBook& book) const;
 
   LoopOptions options_;
   LoopCandidate last_;
