@@ -4,15 +4,18 @@
 #include <mrpt/io/CFileGZInputStream.h>
 #include <mrpt/obs/CObservationBearingRange.h>
 #include <mrpt/obs/CRawlog.h>
-#include <mrpt/opengl/CEllipsoid2D.h>
+#include <mrpt/opengl/CSetOfLines.h>
 #include <mrpt/opengl/CSetOfObjects.h>
 #include <mrpt/poses/CPosePDFGaussian.h>
 #include <mrpt/serialization/CArchive.h>
 #include <mrpt/slam/CRangeBearingKFSLAM2D.h>
 #include <mrpt/system/COutputLogger.h>
 
+#include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <map>
+#include <memory>
 
 #include "colonnade/base/text.hpp"
 #include "colonnade/slam/range_bearing_slam.hpp"
@@ -184,7 +187,22 @@ TEST(RangeBearingAgainstMrpt, DrawsRobotAndLandmarks) {
   slam.getAs3DObject(scene);
   ASSERT_TRUE(scene);
   EXPECT_EQ(scene->size(), 71u);
-  EXPECT_TRUE(scene->getByName("landmark 7"));
+  const auto ellipse =
+      std::dynamic_pointer_cast<mrpt::opengl::CSetOfLines>(scene->getByName("landmark 7"));
+  ASSERT_TRUE(ellipse);
+  // Three sigmas to either side, as the covariance of that landmark has them along x.
+  double farthest_m = 0.0;
+  for (std::size_t i = 0; i < ellipse->size(); ++i) {
+    double x, y, z, to_x, to_y, to_z;
+    ellipse->getLineByIndex(i, x, y, z, to_x, to_y, to_z);
+    farthest_m = std::max(farthest_m, to_x);
+  }
+  const auto map = slam.estimator().map();
+  const auto landmark = std::find_if(map.begin(), map.end(), [&](const LandmarkRecord& record) {
+    return slam.estimator().identityOf(record.id) == 7;
+  });
+  ASSERT_NE(landmark, map.end());
+  EXPECT_NEAR(farthest_m, 3.0 * std::sqrt(landmark->covariance(0, 0)), 0.02 * farthest_m);
 }
 
 }  // namespace

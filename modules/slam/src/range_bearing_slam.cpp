@@ -9,13 +9,16 @@
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CObservationBearingRange.h>
 #include <mrpt/obs/CSensoryFrame.h>
-#include <mrpt/opengl/CEllipsoid2D.h>
+#include <mrpt/opengl/CSetOfLines.h>
 #include <mrpt/opengl/CSetOfObjects.h>
 #include <mrpt/poses/CPosePDFGaussian.h>
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cmath>
 #include <ostream>
 
+#include "colonnade/base/angle.hpp"
 #include "colonnade/base/config.hpp"
 #include "colonnade/base/error.hpp"
 #include "colonnade/base/text.hpp"
@@ -79,18 +82,26 @@ MotionIncrement incrementOf(const mrpt::obs::CActionCollection* actions,
   return increment;
 }
 
-mrpt::opengl::CEllipsoid2D::Ptr ellipse(const Eigen::Matrix2d& covariance, double quantiles,
-                                        const std::string& name, const Eigen::Vector2d& p_world) {
-  auto object = mrpt::opengl::CEllipsoid2D::Create();
-  mrpt::math::CMatrixDouble22 matrix;
-  for (int row = 0; row < 2; ++row)
-    for (int column = 0; column < 2; ++column) matrix(row, column) = covariance(row, column);
-  object->setCovMatrix(matrix);
-  object->setQuantiles(static_cast<float>(quantiles));
-  object->setLocation(p_world.x(), p_world.y(), 0.0);
-  object->setName(name);
-  object->enableShowName();
-  return object;
+/// The outline `quantiles` sigmas around a place. (CEllipsoid2D would do it by itself, but is made
+/// at addresses its class is not aligned to.)
+mrpt::opengl::CSetOfLines::Ptr ellipse(const Eigen::Matrix2d& covariance, double quantiles,
+                                       const std::string& name, const Eigen::Vector2d& p_world) {
+  constexpr int kSides = 48;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(covariance);
+  const Eigen::Matrix2d axes = quantiles * solver.eigenvectors() *
+                               solver.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+  auto outline = mrpt::opengl::CSetOfLines::Create();
+  Eigen::Vector2d from = axes.col(0);
+  for (int i = 1; i <= kSides; ++i) {
+    const double t = 2.0 * kPi * i / kSides;
+    const Eigen::Vector2d to = axes * Eigen::Vector2d(std::cos(t), std::sin(t));
+    outline->appendLine(from.x(), from.y(), 0.0, to.x(), to.y(), 0.0);
+    from = to;
+  }
+  outline->setLocation(p_world.x(), p_world.y(), 0.0);
+  outline->setName(name);
+  outline->enableShowName();
+  return outline;
 }
 
 }  // namespace
