@@ -14,8 +14,10 @@ namespace {
 
 constexpr int kColumn = 60;
 
-/// Upright line at kColumn of an image whose gray level depends on the column alone, blurred.
-AcrossProfile profileOf(const std::function<double(int)>& gray_at, double blur_px = 0.8) {
+/// Upright line at kColumn of an image whose gray level depends on the column alone, blurred; or a
+/// flat one at that row of the image turned.
+AcrossProfile profileOf(const std::function<double(int)>& gray_at, double blur_px = 0.8,
+                        bool steep = true) {
   cv::Mat gray(100, 120, CV_8UC1);
   for (int v = 0; v < gray.rows; ++v)
     for (int u = 0; u < gray.cols; ++u)
@@ -27,6 +29,8 @@ AcrossProfile profileOf(const std::function<double(int)>& gray_at, double blur_p
   line.begin = 10.0;
   line.end = 90.0;
   line.gradient_sign = 1;
+  line.steep = steep;
+  if (!steep) gray = gray.t();
   return {gray, line};
 }
 
@@ -57,6 +61,16 @@ TEST(AcrossProfile, ALineOfPaintHasTheSameShadeOnBothSides) {
   EXPECT_FALSE(profileOf(darkLine(12)).isThinLine(6));       // wider than that
   EXPECT_FALSE(profileOf(darkLine(4, 70.0)).isThinLine(6));  // another shade beyond it
   EXPECT_FALSE(profileOf(step).isThinLine(6));
+}
+
+TEST(AcrossProfile, FlatLinesAreMeasuredAsUprightOnes) {
+  const auto flat = [](const std::function<double(int)>& gray_at) {
+    return profileOf(gray_at, 0.8, false);
+  };
+  EXPECT_DOUBLE_EQ(flat(step).width(), profileOf(step).width());
+  EXPECT_DOUBLE_EQ(flat(shade).steepest(), profileOf(shade).steepest());
+  EXPECT_TRUE(flat(darkLine(4)).isThinLine(6));
+  EXPECT_FALSE(flat(darkLine(4, 70.0)).isThinLine(6));
 }
 
 TEST(CommonWidth, IsThatOfTheEdgesOfTheFrame) {

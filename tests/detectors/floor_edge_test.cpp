@@ -109,7 +109,7 @@ TEST(FloorEdgeDetector, WithoutDepthALineWithTheSameFloorOnBothSidesIsAJoint) {
     for (const auto& edge : accepted(detectAll(frame), LandmarkKind::kFloorEdge)) {
       const Eigen::Vector2d middle = 0.5 * (edge.p_robot_a + edge.p_robot_b);
       const bool is_foot = std::abs(middle.y()) > 1.0 || middle.x() > 4.2;
-      EXPECT_EQ(is_foot, !edge.appearance.joint) << middle.transpose() << " " << skirting_gray;
+      EXPECT_EQ(is_foot, !edge.on_surface) << middle.transpose() << " " << skirting_gray;
       ++(is_foot ? feet : joints);
     }
     EXPECT_EQ(feet, 3) << skirting_gray;
@@ -117,13 +117,19 @@ TEST(FloorEdgeDetector, WithoutDepthALineWithTheSameFloorOnBothSidesIsAJoint) {
   }
 }
 
-TEST(FloorEdgeDetector, WithDepthNoEdgeIsAJoint) {
+TEST(FloorEdgeDetector, AJointAlongTheFootOfAWallLeavesItWhatItIs) {
   Scene scene = corridor();
-  scene.strips.push_back({{0.5, 0.5}, {4.4, 0.5}, 0.012});
-  for (const auto& edge : accepted(detectAll(render(scene, kTilted)), LandmarkKind::kFloorEdge)) {
-    EXPECT_FALSE(edge.appearance.joint);
-    EXPECT_GT(std::abs(edge.measurement.z[1]), 1.0);
+  scene.strips.push_back({{0.5, 1.0}, {4.4, 1.0}, 0.012});
+  Frame frame = withNoise(render(scene, kTilted), 2.0, 7);
+  frame.depth_m.release();
+  int feet = 0, joints = 0;
+  for (const auto& edge : accepted(detectAll(frame), LandmarkKind::kFloorEdge)) {
+    if (edge.p_robot_a.y() < 0.9 || edge.p_robot_b.y() < 0.9) continue;
+    ++(edge.on_surface ? joints : feet);
+    EXPECT_NEAR(edge.p_robot_a.y(), edge.on_surface ? 1.0 : 1.1, 0.02);
   }
+  EXPECT_EQ(feet, 1);
+  EXPECT_EQ(joints, 1);
 }
 
 TEST(FloorEdgeDetector, RefusesPaintOnTheFloorWhenDepthShowsThatItGoesOn) {

@@ -372,7 +372,7 @@ Detection floorLine(double y_m, bool joint) {
   d.measurement.R = Eigen::Vector2d(1e-4, 1e-4).asDiagonal();
   d.p_robot_a = {1.0, y_m};
   d.p_robot_b = {2.0, y_m};
-  d.appearance.joint = joint;
+  d.on_surface = joint;
   return d;
 }
 

@@ -68,6 +68,7 @@ TEST_F(FoundTwiceTest, TwoEdgesOfAFrameTellWhichIsWhich) {
   std::vector<Twins> both{{then[0], now[0]}, {then[1], now[1]}};
   ASSERT_TRUE(fuse(both, {}, filter_, book_));
   EXPECT_FALSE(book_.isAsleep(then[0]));
+  EXPECT_TRUE(book_.seenOnWay(then[0]).returned_m);
   EXPECT_FALSE(filter_.state().find(now[0]));
   EXPECT_TRUE(twins().empty());
 }

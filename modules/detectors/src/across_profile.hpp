@@ -9,8 +9,8 @@
 
 namespace colonnade {
 
-/// Mean gray levels beside a line (across: u for steep ones, v for flat ones), by distance from it, in the sense of its gradient: they
-/// rise at 0.
+/// Mean gray levels beside a line, by distance from it along u (steep lines) or v (flat ones), in
+/// the sense of its gradient: they rise at 0.
 class AcrossProfile {
  public:
   static constexpr int kReach_px = 20;

@@ -34,7 +34,7 @@ cv::Scalar colourOf(const Detection& detection) {
     case LandmarkKind::kPillarEdge:
       return detection.measurement.hasRange() ? kRanged : kBearingOnly;
     case LandmarkKind::kFloorEdge:
-      return detection.appearance.joint ? kJoint : kFloor;
+      return detection.on_surface ? kJoint : kFloor;
     case LandmarkKind::kDepthSlope:
       return kCorner;
   }
@@ -46,7 +46,7 @@ std::string labelOf(const Detection& detection) {
   const auto& m = detection.measurement;
   std::string label = formatFixed(degrees(m.z[0]), 1);
   if (m.hasRange()) label += " " + formatFixed(m.z[1], 2) + "m";
-  if (detection.appearance.joint) label += " joint";
+  if (detection.kind() == LandmarkKind::kFloorEdge && detection.on_surface) label += " joint";
   return label;
 }
 

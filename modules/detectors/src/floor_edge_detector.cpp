@@ -110,7 +110,7 @@ void addColours(const Frame& frame, const RefinedLine& line, const FloorLine& fl
   detection.appearance.right = far_is_behind ? colours.behind : colours.before;
 }
 
-/// A line with the same floor on both sides: a joint or paint.
+/// Whether the floor is the same on both sides: a joint or paint.
 bool isJoint(const Frame& frame, const LevelledCamera& camera, RefinedLine line,
              const FloorLine& floor_line) {
   constexpr double kWidest_m = 0.03;
@@ -120,10 +120,12 @@ bool isJoint(const Frame& frame, const LevelledCamera& camera, RefinedLine line,
   const auto a = camera.project({middle.x(), middle.y(), 0.0});
   const auto b = camera.project({beyond.x(), beyond.y(), 0.0});
   if (!a || !b) return false;
+  const Eigen::Vector2d d = *b - *a;
+  const double width_px = line.steep ? d.x() - line.slope * d.y() : d.y() - line.slope * d.x();
   line.begin = floor_line.begin;
   line.end = floor_line.end;
   return AcrossProfile(frame.gray, line)
-      .isThinLine(std::max(3, 1 + static_cast<int>((*b - *a).norm())));
+      .isThinLine(std::max(3, 1 + static_cast<int>(std::abs(width_px))));
 }
 
 double length(const Detection& detection) {
@@ -213,17 +215,20 @@ Detections contactEdges(Detections found, const DepthView& depth, const Levelled
            (length(a) == length(b) && a.measurement.z[0] < b.measurement.z[0]);
   });
   constexpr double kSkirting_m = 0.1;
+  constexpr double kOneLineUnlike_m = 0.02;  // of a joint and a foot
   Detections kept;
   for (auto& detection : found) {
     bool taken = false;
     for (auto& longer : kept) {
       if (!detection.accepted() || !longer.accepted()) continue;
-      if (detection.appearance.joint != longer.appearance.joint) continue;
       const double apart_m = apart(detection, longer);
       // An edge this high above the floor seems to lie so much farther out.
       const double skirting_m = longer.measurement.z[1] * kSkirting_m /
                                 std::max(camera.height() - kSkirting_m, kSkirting_m);
-      const double one_line_m = 0.04 + 2.0 * std::sqrt(detection.measurement.R(1, 1)) / 3.0;
+      const bool alike = detection.on_surface == longer.on_surface;
+      const double one_line_m =
+          alike ? std::min(0.04 + 2.0 * std::sqrt(detection.measurement.R(1, 1)) / 3.0, 0.1)
+                : kOneLineUnlike_m;
       const bool along = apart_m < options.parallel_m + skirting_m &&
                          overlap(detection, longer) > 0.5 * length(detection);
       const bool nearer = isNearer(detection, longer);
@@ -232,9 +237,13 @@ Detections contactEdges(Detections found, const DepthView& depth, const Levelled
                                        : std::nullopt;
       if (floor_between.value_or(false)) {
         (nearer ? detection : longer).refusal = "floor goes on behind it";
-      } else if (!floor_between && apart_m < std::min(one_line_m, 0.1)) {
+      } else if (!floor_between && apart_m < one_line_m) {
         extend(longer, detection);
         taken = true;
+      } else if (along && !alike) {
+        // A joint before the foot of a wall leaves it what it is; behind it there is no floor.
+        Detection& farther = nearer ? longer : detection;
+        if (farther.on_surface) farther.refusal = "a nearer edge runs along it";
       } else if (along) {
         if (nearer && length(detection) > 0.5 * length(longer)) {
           longer.refusal = "a nearer edge runs along it";
@@ -270,7 +279,7 @@ Detections FloorEdgeDetector::detect(const Frame& frame, const RefinedLines& lin
     const WallVotes votes = askDepth(depth, camera, *floor_line, options_, geometry_);
     detection.refusal = reasonToRefuse(votes, *floor_line, !depth.empty(), options_);
     if (detection.accepted()) addColours(frame, line, *floor_line, detection);
-    detection.appearance.joint =
+    detection.on_surface =
         detection.accepted() && depth.empty() && isJoint(frame, camera, line, *floor_line);
     found.push_back(std::move(detection));
   }

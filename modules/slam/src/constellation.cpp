@@ -212,6 +212,7 @@ Constellation describe(const Pairs& pairs, const std::vector<std::size_t>& membe
     places.push_back(pair.d.p_kept);
     seen.push_back(pair.d.p_kept + pair.d.difference);
     c.shift += pair.d.difference;
+    c.largest_shift_m = std::max(c.largest_shift_m, pair.d.difference.norm());
     if (filter.state().find(pair.twins.kept)->landmark_kind == LandmarkKind::kPillarEdge)
       coloured.push_back(pair.twins);
   }

@@ -67,7 +67,7 @@ std::vector<HallwayTracker::Side> HallwayTracker::sidesAlong(const Observation& 
   std::vector<Side> sides;
   for (const Detection& detection : seen.detections) {
     if (detection.kind() != LandmarkKind::kFloorEdge || !detection.accepted()) continue;
-    if (detection.appearance.joint) continue;
+    if (detection.on_surface) continue;
     const double near = std::min(detection.p_robot_a.norm(), detection.p_robot_b.norm());
     if (std::abs(detection.measurement.z(1)) > options_.widest_m || near > options_.reach_m)
       continue;

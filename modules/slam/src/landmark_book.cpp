@@ -130,6 +130,10 @@ void LandmarkBook::merge(LandmarkId kept, LandmarkId twin, const State& state) {
   const Page other = from->second;
   Page& page = pages_[kept];
   page.looks.merge(looksInAxesOf(kept, twin, state));
+  if (other.first_m - page.last_m > kLongWay_m)
+    page.returned_m = other.first_m;
+  else if (other.returned_m)
+    page.returned_m = std::max(page.returned_m.value_or(0.0), *other.returned_m);
   page.first_m = std::min(page.first_m, other.first_m);
   page.last_m = std::max(page.last_m, other.last_m);
   page.asleep = page.asleep && other.asleep;

@@ -13,7 +13,7 @@ constexpr double kYoungTrail_m = 3.0;      ///< of the way just driven that is n
 constexpr double kOnTrail_m = 1.5;         ///< from a pose of the trail
 constexpr double kAfterNewGround_m = 4.0;  ///< way within which a return is recognised
 constexpr double kSamePlace_m = 0.10;
-constexpr double kFoundTwice_m = 0.06;  ///< what was found twice moves less when it is made one
+constexpr double kFoundTwice_m = 0.08;  ///< what was found twice stands no farther apart
 
 /// Whether another landmark of its kind and looks stands so near that it may be taken for it.
 /// Floor edges run along each other everywhere: they always have one.
@@ -25,6 +25,20 @@ bool hasDouble(const Block& block, double near_m, const State& state, const Land
            other.landmark_kind == block.landmark_kind &&
            (state.x.segment<2>(other.offset) - p).norm() < near_m &&
            book.lookAlike(block.id, other.id, state);
+  });
+}
+
+/// Whether one of the others stands where this one might; what is no point might be anywhere.
+bool hasNear(LandmarkId id, const std::vector<LandmarkId>& others, const State& state) {
+  constexpr double kReach_m = 0.3;
+  const Block& block = *state.find(id);
+  if (block.block_kind != BlockKind::kPoint) return true;
+  const Eigen::Vector2d p = state.x.segment<2>(block.offset);
+  return std::any_of(others.begin(), others.end(), [&](LandmarkId other_id) {
+    const Block& other = *state.find(other_id);
+    return other.landmark_kind == block.landmark_kind &&
+           (other.block_kind != BlockKind::kPoint ||
+            (state.x.segment<2>(other.offset) - p).norm() < kReach_m);
   });
 }
 
@@ -122,8 +136,9 @@ std::vector<Twins> LoopCloser::foundTwice(const EkfSlam& filter, const LandmarkB
     else if (relativeSigma(block.id, filter) < options_.sleep_sigma_alone_m)
       old.push_back(block.id);
   }
+  std::erase_if(old, [&](LandmarkId id) { return !hasNear(id, young, filter.state()); });
   const LoopCandidate found = findConstellation(old, young, filter, book, sureOfPlace(options_));
-  const bool stands = found.refusal.empty() && found.best.shift.norm() < kFoundTwice_m;
+  const bool stands = found.refusal.empty() && found.best.largest_shift_m < kFoundTwice_m;
   return stands ? found.best.twins : std::vector<Twins>{};
 }
 

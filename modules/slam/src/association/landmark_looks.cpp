@@ -20,7 +20,7 @@ double meanSquare(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
 void LandmarkLooks::observe(const Detection& detection) {
   ++sightings_;
   gradient_balance_ += detection.appearance.gradient_sign;
-  joint_balance_ += detection.appearance.joint ? 1 : -1;
+  if (detection.kind() == LandmarkKind::kFloorEdge) joint_balance_ += detection.on_surface ? 1 : -1;
   const float gain = std::max(kLeastGain, 1.0F / static_cast<float>(sightings_));
   left_ += gain * (detection.appearance.left - left_);
   right_ += gain * (detection.appearance.right - right_);

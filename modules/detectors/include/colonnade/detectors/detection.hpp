@@ -18,9 +18,6 @@ struct Appearance {
   int gradient_sign = 0;                            ///< +1: brighter on its right (or far) side
   Eigen::Vector3f left = Eigen::Vector3f::Zero();   ///< mean B, G, R beside it; gray if no colour
   Eigen::Vector3f right = Eigen::Vector3f::Zero();  ///< (for floor edges: near and far side)
-  /// A line with the same floor on both sides: a joint or paint, where no depth tells it from the
-  /// foot of a wall.
-  bool joint = false;
 };
 
 /// What a frame shows of how tall an upright edge is.
@@ -48,6 +45,7 @@ struct Detection {
   UprightHeight height = UprightHeight::kUnknown;  ///< of pillar edges with a range
   /// Accepted pillar edges: a line of paint, a joint or a gap with the same surface on both sides.
   /// It stays where it is, and so serves as a landmark, but is no edge of a pillar, frame or wall.
+  /// Accepted floor edges, where no depth tells: the same on the floor, no foot of a wall.
   bool on_surface = false;
   std::string refusal;  ///< why the detector does not stand behind it; empty = accepted
 

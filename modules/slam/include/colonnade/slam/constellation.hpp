@@ -22,6 +22,7 @@ struct Constellation {
   double spread_m = 0.0;
   double share = 0.0;  ///< of the recent places around it that are among the twins
   Eigen::Vector2d shift = Eigen::Vector2d::Zero();  ///< mean displacement from then to now
+  double largest_shift_m = 0.0;                     ///< of its vertical landmarks
   std::optional<double> colour_levels;              ///< median colour distance of the twins
   double other_colour_levels = 0.0;                 ///< of all other pairings of the same landmarks
 };
@@ -29,7 +30,7 @@ struct Constellation {
 /// What a search found: the best constellation, and why it is not enough, if so.
 struct LoopCandidate {
   Constellation best;
-  std::string refusal;  ///< empty: it may be closed
+  std::string refusal;  ///< empty: it stands, and needs cues besides to be closed
   std::string cues;     ///< what speaks for it
 };
 

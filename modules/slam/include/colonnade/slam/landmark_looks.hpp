@@ -18,11 +18,11 @@ class LandmarkLooks {
   /// other.
   bool hasDarkSide() const { return 2 * std::abs(gradient_balance_) > sightings_; }
 
-  /// Whether it was a joint of the floor in most of its sightings.
+  /// Floor edges: whether it was a joint of the floor in most of its sightings.
   bool isJoint() const { return joint_balance_ > 0; }
   /// Whether a detection may be of it by that, as far as its sightings agree.
   bool agreesOnJoint(const Detection& detection) const {
-    return 2 * std::abs(joint_balance_) <= sightings_ || isJoint() == detection.appearance.joint;
+    return 2 * std::abs(joint_balance_) <= sightings_ || isJoint() == detection.on_surface;
   }
 
   struct Difference {
