@@ -38,7 +38,8 @@ std::vector<StampedCovariance> readCovarianceCsv(const std::filesystem::path& pa
       entry->complain("stamp", "above the one before; sort the file by it");
     const double xx = entry->number("xx"), xy = entry->number("xy"), xphi = entry->number("xphi");
     const double yy = entry->number("yy"), yphi = entry->number("yphi");
-    row.covariance << xx, xy, xphi, xy, yy, yphi, xphi, yphi, entry->number("phiphi");
+    const double phiphi = entry->number("phiphi");
+    row.covariance << xx, xy, xphi, xy, yy, yphi, xphi, yphi, phiphi;
     rows.push_back(row);
   }
   return rows;
