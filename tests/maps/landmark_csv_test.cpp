@@ -81,6 +81,7 @@ TEST(LandmarkCsv, NamesFileLineAndColumnOfAMistake) {
   EXPECT_THAT(with("4,pillar", "4,column"), HasSubstr("landmarks.csv:3: column kind"));
   EXPECT_THAT(with("\n4,pillar", "\n3,pillar"), HasSubstr("landmarks.csv:3: id 3 stands twice"));
   EXPECT_THAT(with("1.8", "1.8m"), HasSubstr("\"1.8m\" is not a number"));
+  EXPECT_THAT(with(",0.002,", ",x,"), HasSubstr("column cov_xy: \"x\" is not a number"));
   EXPECT_THAT(with("cov_xy,", ""), HasSubstr("landmarks.csv:1: column cov_xy is missing"));
   EXPECT_THAT(with("floor_edge,", "floor_edge,5,"),
               HasSubstr("landmarks.csv:4: the header has 17"));

@@ -33,8 +33,8 @@ LandmarkRecord toRecord(const CsvTable::Row& row) {
   record.id = LandmarkId{row.integer("id")};
   record.kind = kindOf(row);
   record.p_world = {row.number("x"), row.number("y")};
-  record.covariance << row.number("cov_xx"), row.number("cov_xy"), row.number("cov_xy"),
-      row.number("cov_yy");
+  const double xx = row.number("cov_xx"), xy = row.number("cov_xy"), yy = row.number("cov_yy");
+  record.covariance << xx, xy, xy, yy;
   if (!row.empty("direction")) record.direction = row.number("direction");
   if (record.kind == LandmarkKind::kFloorEdge && !record.direction)
     row.complain("direction", "a number, which every floor edge needs");
