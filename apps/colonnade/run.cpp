@@ -115,10 +115,8 @@ Trajectory finalTrajectory(const RangeBearingSession& session) {
 }
 
 /// What a later run needs to go on from this map.
-void writeMapToGoOn(const fs::path& folder, const Session& session) {
-  writeFileAtomically(folder / "map.colonnade", MapFile::text(session.mapper().savedMap()));
-}
-void writeMapToGoOn(const fs::path&, const RangeBearingSession&) {}
+SavedMap savedMap(const Session& session) { return session.mapper().savedMap(); }
+SavedMap savedMap(const RangeBearingSession& session) { return session.savedMap(); }
 
 /// The score, or why there is none: a wrong truth must not cost the map.
 std::optional<TrajectoryScore> scoreAgainst(const Trajectory& truth, const Trajectory& estimate,
@@ -234,7 +232,7 @@ ExitCode runSession(AnySession& session, FrameSource& source, const RunInputs& i
   summary.final_score = scoreAgainst(truth, final, {}, not_scored);
 
   recorder.write(folder, final);
-  writeMapToGoOn(folder, session);
+  writeFileAtomically(folder / "map.colonnade", MapFile::text(savedMap(session)));
   writeLandmarksCsv(folder / "landmarks.csv", summary.landmarks);
   MapContents contents;
   contents.title = arguments.log.filename().string();
@@ -264,10 +262,16 @@ ExitCode run(const RunArguments& arguments) {
   RawlogSource log(arguments.log, options.source);
   const RunInputs inputs{arguments, options, truth, log};
   auto from = resumption(arguments, options.resume);
+  const auto made_from = readings_only ? SavedMap::Source::kReadings : SavedMap::Source::kCamera;
+  if (from && from->map.source != made_from)
+    throw Error(arguments.map.string() + ": made from " +
+                    (readings_only ? "cameras, and the log holds landmark readings"
+                                   : "landmark readings, and the log holds camera frames") +
+                    "; give a map of a log of its kind",
+                ExitCode::kUsage);
   if (readings_only) {
-    if (from) throw Error("--map: maps of landmark readings cannot be loaded", ExitCode::kUsage);
     RangeBearingSession session(options.range_bearing, options.session.filter,
-                                options.session.motion);
+                                options.session.motion, std::move(from));
     return runSession(session, log, inputs);
   }
   Session session(options.session, makeImageStage(arguments.backend, options.session.edges),

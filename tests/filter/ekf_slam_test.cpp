@@ -81,6 +81,64 @@ TEST(EkfSlam, TransportIsTheCongruenceWithM) {
   EXPECT_LT((state.P - M * plain.P * M.transpose()).cwiseAbs().maxCoeff(), 1e-12);
 }
 
+TEST(EkfSlam, FixedEntriesStayAndStillCount) {
+  for (const bool invariant : {true, false}) {
+    const State before = afterSomeSteps(true).state();
+    const Eigen::Index n = before.x.size();
+    const Eigen::Index fixed = before.blocks[2].offset - 3;
+    SparseJacobian H(2);
+    H.add(0, 0, Eigen::MatrixXd{{0.1, -0.2, 0.5}, {1.0, 0.3, -0.7}});
+    H.add(0, 3, Eigen::MatrixXd{{0.4, 0.9}, {-0.6, 0.2}});
+    H.add(0, before.blocks[3].offset, Eigen::MatrixXd{{0.2, -0.3}, {0.5, 0.1}});
+    const Eigen::Vector2d nu(0.01, -0.02);
+    const Eigen::Matrix2d R = Eigen::Vector2d(1e-3, 2e-3).asDiagonal();
+    const Eigen::MatrixXd PHt = timesTransposed(before.P, H);
+    const Eigen::MatrixXd change = PHt * (times(H, PHt) + R).eval().inverse() * PHt.transpose();
+    // Jazwinski, section 8.4: as if all were estimated, but for the rows of what is only
+    // considered.
+    Eigen::MatrixXd expected = before.P - change;
+    expected.block(3, 3, fixed, fixed) = before.P.block(3, 3, fixed, fixed);
+    State state = before;
+    ASSERT_TRUE(correct(state, H, nu, R, invariant, fixed));
+    EXPECT_EQ(state.x.segment(3, fixed), before.x.segment(3, fixed));
+    EXPECT_EQ(state.P.block(3, 3, fixed, fixed), before.P.block(3, 3, fixed, fixed));
+    EXPECT_EQ(state.P, state.P.transpose().eval());
+    Eigen::MatrixXd M = Eigen::MatrixXd::Identity(n, n);
+    if (invariant) M.col(2) += worldTurn(state) - worldTurn(before);
+    EXPECT_LT((state.P - M * expected * M.transpose()).cwiseAbs().maxCoeff(), 1e-12);
+  }
+}
+
+TEST(EkfSlam, AnotherWorldHoldsTheSameMap) {
+  const State before = afterSomeSteps(true).state();
+  const Pose2 T{0.7, -2.0, 2.5};
+  State moved = before;
+  moveWorld(moved, T);
+  for (const Block& block : before.blocks) {
+    if (block.block_kind == BlockKind::kAxis) continue;
+    const BlockVector y = moved.values(block);
+    EXPECT_LT((y.head<2>() - transform(T, before.values(block).head<2>())).norm(), 1e-12);
+  }
+  // What the robot would measure is the same, and as uncertain.
+  const auto relative = [&](const State& state) {
+    const Block& block = state.blocks.front();
+    Eigen::Matrix<double, 2, 3> J_pose;
+    const Pose2 pose = state.T_world_robot();
+    const Eigen::Matrix2d Rt = pose.rotation().transpose();
+    const Eigen::Vector2d v = Rt * (state.values(block).head<2>() - pose.translation());
+    J_pose << -Rt, Eigen::Vector2d(v.y(), -v.x());
+    SparseJacobian H(2);
+    H.add(0, 0, J_pose).add(0, block.offset, Rt);
+    return std::pair(v, times(H, timesTransposed(state.P, H)));
+  };
+  EXPECT_LT((relative(moved).first - relative(before).first).norm(), 1e-12);
+  EXPECT_LT((relative(moved).second - relative(before).second).norm(), 1e-12);
+  EXPECT_EQ(moved.P, moved.P.transpose().eval());
+  moveWorld(moved, T.inverse());
+  EXPECT_LT((moved.x - before.x).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_LT((moved.P - before.P).cwiseAbs().maxCoeff(), 1e-12);
+}
+
 TEST(EkfSlam, NonFiniteInputIsRefusedAndChangesNothing) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EkfSlam filter = afterSomeSteps(true);

@@ -259,7 +259,7 @@ TEST_F(SavedMaps, DamagedOrForeignOnesAreRefused) {
   expectRefusal("", "no map of Colonnade");
   expectRefusal("id,kind,x,y\n", "no map of Colonnade");
   std::string other_version = text();
-  other_version.replace(other_version.find(" 3\n"), 3, " 9\n");
+  other_version.replace(other_version.find(" 4\n"), 3, " 9\n");
   expectRefusal(other_version, "version 9");
   expectRefusal(text().substr(0, text().size() / 2), "damaged");
   std::string flipped = text();

@@ -3,17 +3,19 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
 
 #include "colonnade/evaluation/trajectory_score.hpp"
 #include "colonnade/frames/mrclam_import.hpp"
 #include "colonnade/frames/rawlog_source.hpp"
 #include "colonnade/slam/range_bearing_session.hpp"
+#include "ring_of_posts.hpp"
 #include "shared_data.hpp"
 #include "temporary_folder.hpp"
 
 namespace colonnade {
 namespace {
+
+using testing::RingOfPosts;
 
 struct Errors {
   double online_m = 0.0;
@@ -32,51 +34,6 @@ Errors errorsOf(FrameSource& source, const Trajectory& truth, const RangeBearing
   return {evaluateTrajectory(online, truth).ate_rmse_m,
           evaluateTrajectory(session.smoothed()->trajectory, truth).ate_rmse_m};
 }
-
-/// A robot that drives two rounds in a ring of posts and sees those in front of it.
-class RingOfPosts : public FrameSource {
- public:
-  explicit RingOfPosts(unsigned seed) : random_(seed) {}
-
-  std::optional<Frame> next() override {
-    if (truth.size() == 2 * kSteps) return std::nullopt;
-    const Pose2 way{0.2, 0.0, 2.0 * kPi / kSteps};
-    T_world_robot_ = T_world_robot_ * way;
-    T_world_odometry_ =
-        T_world_odometry_ * Pose2{way.x * (1.0 + gauss(0.1)), gauss(0.004), way.phi + gauss(0.01)};
-    Frame frame;
-    frame.stamp_s = 0.5 * static_cast<double>(truth.size() + 1);
-    frame.odometry = OdometryReading{T_world_odometry_, {}};
-    frame.range_bearing.emplace();
-    frame.range_bearing->range_sigma_m = 0.05;
-    frame.range_bearing->yaw_sigma = radians(1.0);
-    for (int i = 0; i < 24; ++i) {
-      const double angle = 2.0 * kPi * i / 24.0, radius = i % 2 == 0 ? 5.5 : 2.0;
-      const Eigen::Vector2d p = transform(
-          T_world_robot_.inverse(),
-          Eigen::Vector2d(radius * std::sin(angle), kRadius_m - radius * std::cos(angle)));
-      const double bearing = std::atan2(p.y(), p.x());
-      if (p.norm() > 3.0 || std::abs(bearing) > 0.7) continue;
-      frame.range_bearing->readings.push_back(
-          {i + 1, p.norm() + gauss(0.05), bearing + gauss(radians(1.0)), 0.0, {}});
-    }
-    truth.push_back({frame.stamp_s, T_world_robot_.toIsometry3()});
-    return frame;
-  }
-  const Damage& damage() const override { return damage_; }
-  double progress() const override { return 0.0; }
-
-  Trajectory truth;
-
- private:
-  static constexpr std::size_t kSteps = 120;
-  static constexpr double kRadius_m = 0.2 * kSteps / (2.0 * kPi);
-  double gauss(double sigma) { return std::normal_distribution<double>(0.0, sigma)(random_); }
-
-  std::mt19937 random_;
-  Pose2 T_world_robot_, T_world_odometry_;
-  Damage damage_;
-};
 
 TEST(RangeBearingSmoothing, TheWholeLogKnowsEarlierPosesBetter) {
   for (const bool known : {true, false}) {

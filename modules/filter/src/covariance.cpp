@@ -22,8 +22,8 @@ void wrapDirections(State& state) {
 }
 
 /// x <- exp(xi) x: the whole world turned about its origin by dx's heading, with what the turn does
-/// not explain, dx - G(x) dphi, spread over it.
-void retractInvariant(State& state, const Eigen::VectorXd& dx) {
+/// not explain, dx - G(x) dphi, spread over it. The first `fixed` entries after the robot's stay.
+void retractInvariant(State& state, const Eigen::VectorXd& dx, Eigen::Index fixed) {
   const double turn = dx(2);
   const Eigen::VectorXd rest = dx - worldTurn(state) * turn;
   const Eigen::Matrix2d R = Eigen::Rotation2Dd(turn).toRotationMatrix();
@@ -36,6 +36,7 @@ void retractInvariant(State& state, const Eigen::VectorXd& dx) {
   };
   move(0, 3);
   for (const Block& block : state.blocks) {
+    if (block.offset < 3 + fixed) continue;
     if (block.block_kind == BlockKind::kAxis)
       state.x(block.offset) += dx(block.offset);
     else
@@ -43,19 +44,36 @@ void retractInvariant(State& state, const Eigen::VectorXd& dx) {
   }
 }
 
-void retract(State& state, const Eigen::VectorXd& dx, bool invariant) {
+void retract(State& state, const Eigen::VectorXd& dx, bool invariant, Eigen::Index fixed) {
   if (invariant)
-    retractInvariant(state, dx);
+    retractInvariant(state, dx, fixed);
   else
     state.x += dx;
   wrapDirections(state);
 }
 
+/// P + A B, which is symmetric, without the block of the `fixed` entries after the robot's, however
+/// many these are. Written are the lower triangle, for mirrorLowerTriangle(), and some of the
+/// upper.
+void addBesideFixed(Eigen::MatrixXd& P, const Eigen::MatrixXd& A, const Eigen::MatrixXd& B,
+                    Eigen::Index fixed) {
+  const Eigen::Index others = P.rows() - 3, own = others - fixed;
+  P.leftCols(3).noalias() += A * B.leftCols(3);
+  P.bottomRightCorner(own, others).noalias() += A.bottomRows(own) * B.rightCols(others);
+}
+
 /// P <- M P M^T with M = I + g e^T, e the heading: a symmetric change of rank two, since
 /// P + g h^T + h g^T + v g g^T = P + g (h + v/2 g)^T + (h + v/2 g) g^T with h = P e, v = e^T P e.
-void transport(Eigen::MatrixXd& P, const Eigen::VectorXd& g) {
+void transport(Eigen::MatrixXd& P, const Eigen::VectorXd& g, Eigen::Index fixed) {
   const Eigen::VectorXd h = P.col(2) + 0.5 * P(2, 2) * g;
-  P.selfadjointView<Eigen::Lower>().rankUpdate(g, h);
+  if (fixed == 0) {
+    P.selfadjointView<Eigen::Lower>().rankUpdate(g, h);
+    return;
+  }
+  Eigen::MatrixX2d gh(P.rows(), 2), hg(P.rows(), 2);
+  gh << g, h;
+  hg << h, g;
+  addBesideFixed(P, gh, hg.transpose(), fixed);
 }
 
 /// Guivant and Nebot 2001: what a correction with gain P H^T S^-1 does to the resting
@@ -73,9 +91,12 @@ void carryCorrection(Transfer& transfer, const Eigen::MatrixXd& HPhi, const Eige
   if (g.size() > 0) transfer.Phi += g * transfer.Phi.row(2).eval();
 }
 
-void mirrorLowerTriangle(Eigen::MatrixXd& P) {
-  for (Eigen::Index column = 1; column < P.cols(); ++column)
-    P.col(column).head(column) = P.row(column).head(column).transpose();
+/// The upper triangle, but for the block of the fixed entries.
+void mirrorLowerTriangle(Eigen::MatrixXd& P, Eigen::Index fixed) {
+  for (Eigen::Index column = 1; column < P.cols(); ++column) {
+    const Eigen::Index rows = column >= 3 && column < 3 + fixed ? 3 : column;
+    P.col(column).head(rows) = P.row(column).head(rows).transpose();
+  }
 }
 
 }  // namespace
@@ -125,18 +146,19 @@ bool correct(State& state, const SparseJacobian& H, const Eigen::VectorXd& nu,
 
   // W W^T = P H^T S^-1 H P, so that P loses a symmetric product: it cannot become unsymmetric.
   const Eigen::MatrixXd W = llt.matrixL().solve(PHt.transpose()).transpose();
-  const Eigen::MatrixXd P_fixed = state.P.block(3, 3, fixed, fixed);
-  state.P.selfadjointView<Eigen::Lower>().rankUpdate(W, -1.0);
-  state.P.block(3, 3, fixed, fixed) = P_fixed;
-  mirrorLowerTriangle(state.P);
+  if (fixed == 0)
+    state.P.selfadjointView<Eigen::Lower>().rankUpdate(W, -1.0);
+  else
+    addBesideFixed(state.P, -W, W.transpose(), fixed);
+  mirrorLowerTriangle(state.P, fixed);
 
   const Eigen::VectorXd G_before = worldTurn(state);
-  retract(state, dx, invariant);
+  retract(state, dx, invariant, fixed);
   Eigen::VectorXd g;
   if (invariant) {
     g = worldTurn(state) - G_before;
-    transport(state.P, g);
-    mirrorLowerTriangle(state.P);
+    transport(state.P, g, fixed);
+    mirrorLowerTriangle(state.P, fixed);
   }
   if (state.transfer)
     carryCorrection(*state.transfer, times(H, state.transfer->Phi), PHt, llt, nu,
@@ -194,6 +216,28 @@ void replaceBlock(State& state, LandmarkId id, BlockKind kind, const BlockVector
   block->block_kind = kind;
   for (Block& other : state.blocks)
     if (other.offset > offset) other.offset += static_cast<int>(after - before);
+}
+
+void moveWorld(State& state, const Pose2& T_new_old) {
+  const Eigen::Matrix2d R = T_new_old.rotation();
+  const auto turn = [&](Eigen::Index offset) {
+    state.P.middleRows<2>(offset) = (R * state.P.middleRows<2>(offset)).eval();
+    state.P.middleCols<2>(offset) = (state.P.middleCols<2>(offset) * R.transpose()).eval();
+  };
+  const auto move = [&](Eigen::Index offset, int size) {
+    state.x.segment<2>(offset) = transform(T_new_old, state.x.segment<2>(offset));
+    if (size >= 3) state.x(offset + 2) += T_new_old.phi;
+    turn(offset);
+  };
+  move(0, 3);
+  for (const Block& block : state.blocks) {
+    if (block.block_kind == BlockKind::kAxis)
+      state.x(block.offset) += T_new_old.phi;
+    else
+      move(block.offset, block.size());
+  }
+  wrapDirections(state);
+  state.P = (0.5 * (state.P + state.P.transpose())).eval();
 }
 
 void removeBlock(State& state, LandmarkId id) {

@@ -53,11 +53,13 @@ Eigen::Matrix3d liftOf(const Pose2& T_world_robot) {
 }  // namespace
 
 NormalEquations::NormalEquations(const Drive& drive)
-    : poses_(static_cast<Eigen::Index>(drive.T_world_robot.size())),
+    : held_(drive.prior ? 0 : 1),
+      poses_(static_cast<Eigen::Index>(drive.T_world_robot.size())),
       g_(Eigen::VectorXd::Zero(pointAt(drive.points_world.size()))) {
   entries_.reserve(kMotionEntries * drive.motions.size() +
                    kSightingEntries * drive.sightings.size() +
                    kPointEntries * drive.points_world.size());
+  if (drive.prior) addPrior(drive, *drive.prior);
   for (std::size_t k = 1; k < drive.T_world_robot.size(); ++k) addMotion(drive, k);
   for (const Drive::Sighting& sighting : drive.sightings)
     if (sighting.used) addSighting(drive, sighting);
@@ -69,6 +71,25 @@ Eigen::SparseMatrix<double> NormalEquations::H() const {
   Eigen::SparseMatrix<double> H(g_.size(), g_.size());
   H.setFromTriplets(entries_.begin(), entries_.end());
   return H;
+}
+
+void NormalEquations::addPrior(const Drive& drive, const Drive::Prior& prior) {
+  const auto known = static_cast<Eigen::Index>(prior.points_world.size());
+  Eigen::Vector3d start = drive.T_world_robot[0].vector() - prior.T_world_start.vector();
+  start(2) = wrapAngle(start(2));
+  Eigen::VectorXd points(2 * known);
+  for (Eigen::Index i = 0; i < known; ++i) {
+    const auto point = static_cast<std::size_t>(i);
+    points.segment<2>(2 * i) = drive.points_world[point] - prior.points_world[point];
+  }
+  const Eigen::Matrix3d lift = liftOf(drive.T_world_robot[0]);
+  const Eigen::Vector3d pull_start = prior.information_start * start;
+  const Eigen::VectorXd pull_points = prior.information_points * points;
+  cost_ += start.dot(pull_start) + points.dot(pull_points);
+  addBlock(poseAt(0), poseAt(0), lift.transpose() * prior.information_start * lift);
+  addBlock(pointAt(0), pointAt(0), prior.information_points);
+  g_.segment<3>(poseAt(0)) += lift.transpose() * pull_start;
+  g_.segment(pointAt(0), 2 * known) += pull_points;
 }
 
 void NormalEquations::addMotion(const Drive& drive, std::size_t pose) {
@@ -98,7 +119,7 @@ void NormalEquations::addSighting(const Drive& drive, const Drive::Sighting& sig
 
 void NormalEquations::addBlock(Eigen::Index row, Eigen::Index column,
                                const Eigen::MatrixXd& block) {
-  if (row < 0 || column < 0) return;  // the first pose
+  if (row < 0 || column < 0) return;  // the pose that is held
   for (Eigen::Index i = 0; i < block.rows(); ++i)
     for (Eigen::Index k = 0; k < block.cols(); ++k)
       entries_.emplace_back(row + i, column + k, block(i, k));
@@ -117,7 +138,7 @@ void NormalEquations::addPair(Eigen::Index a, Eigen::Index b, const Eigen::Matri
 }
 
 void move(Drive& drive, const NormalEquations& at, const Eigen::VectorXd& dx) {
-  for (std::size_t k = 1; k < drive.T_world_robot.size(); ++k)
+  for (std::size_t k = at.firstFreePose(); k < drive.T_world_robot.size(); ++k)
     drive.T_world_robot[k] = exponential(dx.segment<3>(at.poseAt(k))) * drive.T_world_robot[k];
   for (std::size_t i = 0; i < drive.points_world.size(); ++i)
     drive.points_world[i] += dx.segment<2>(at.pointAt(i));

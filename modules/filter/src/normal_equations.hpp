@@ -12,23 +12,27 @@
 namespace colonnade {
 
 /// H dx = -g of a drive's least squares about the estimate it holds, and the cost there: the sum of
-/// squared Mahalanobis distances, for sightings in Huber's loss. dx has three entries for each pose
-/// but the first, xi of Exp(xi) T_world_robot, and two for each point, metres added to it. With xi
-/// on the world's side a stretch of the way turns as a whole without any change to the motions
-/// along it, however stiff those are and however far it turns.
+/// squared Mahalanobis distances, for sightings in Huber's loss. dx has three entries for each
+/// pose, but for the first without a prior, xi of Exp(xi) T_world_robot, and two for each point,
+/// metres added to it. With xi on the world's side a stretch of the way turns as a whole without
+/// any change to the motions along it, however stiff those are and however far it turns.
 class NormalEquations {
  public:
   explicit NormalEquations(const Drive& drive);
 
-  Eigen::Index poseAt(std::size_t pose) const { return 3 * (static_cast<Eigen::Index>(pose) - 1); }
-  Eigen::Index pointAt(std::size_t point) const {
-    return 3 * (poses_ - 1) + 2 * static_cast<Eigen::Index>(point);
+  Eigen::Index poseAt(std::size_t pose) const {
+    return 3 * (static_cast<Eigen::Index>(pose) - held_);
   }
+  Eigen::Index pointAt(std::size_t point) const {
+    return 3 * (poses_ - held_) + 2 * static_cast<Eigen::Index>(point);
+  }
+  std::size_t firstFreePose() const { return static_cast<std::size_t>(held_); }
   Eigen::SparseMatrix<double> H() const;
   const Eigen::VectorXd& g() const { return g_; }
   double cost() const { return cost_; }
 
  private:
+  void addPrior(const Drive& drive, const Drive::Prior& prior);
   void addMotion(const Drive& drive, std::size_t pose);
   void addSighting(const Drive& drive, const Drive::Sighting& sighting);
   void addBlock(Eigen::Index row, Eigen::Index column, const Eigen::MatrixXd& block);
@@ -36,6 +40,7 @@ class NormalEquations {
                const Eigen::MatrixXd& J_b, const Eigen::MatrixXd& weight,
                const Eigen::VectorXd& residual);
 
+  Eigen::Index held_;  ///< poses that do not move: the first one, or none
   Eigen::Index poses_;
   std::vector<Eigen::Triplet<double>> entries_;
   Eigen::VectorXd g_;

@@ -139,17 +139,16 @@ void mend(Drive& drive, double probability, Smoothing& result) {
   }
 }
 
-std::vector<Eigen::Matrix2d> pointCovariances(const Drive& drive) {
+Eigen::MatrixXd pointCovariance(const Drive& drive) {
   const NormalEquations at(drive);
   const Sparse H = at.H();
   const Eigen::SimplicialLDLT<Sparse> factor(H);
   if (factor.info() != Eigen::Success) return {};
-  std::vector<Eigen::Matrix2d> covariances(drive.points_world.size());
-  for (std::size_t i = 0; i < covariances.size(); ++i)
-    for (Eigen::Index k = 0; k < 2; ++k)
-      covariances[i].col(k) = factor.solve(Eigen::VectorXd::Unit(H.rows(), at.pointAt(i) + k))
-                                  .segment<2>(at.pointAt(i));
-  return covariances;
+  const Eigen::Index first = at.pointAt(0), size = H.rows() - first;
+  Eigen::MatrixXd covariance(size, size);
+  for (Eigen::Index i = 0; i < size; ++i)
+    covariance.col(i) = factor.solve(Eigen::VectorXd::Unit(H.rows(), first + i)).tail(size);
+  return 0.5 * (covariance + covariance.transpose());
 }
 
 }  // namespace
@@ -161,8 +160,7 @@ Smoothing smooth(Drive& drive, double gate_probability) {
   if (drive.T_world_robot.size() < 2 || drive.sightings.empty()) return result;
   settle(drive, gate_probability, result);
   mend(drive, gate_probability, result);
-  if (drive.points_world.size() <= kMostCovariances)
-    result.point_covariances = pointCovariances(drive);
+  if (drive.points_world.size() <= kMostCovariances) result.covariance = pointCovariance(drive);
   return result;
 }
 

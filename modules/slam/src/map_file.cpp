@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "colonnade/slam/map_file.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <fstream>
@@ -14,7 +15,8 @@ namespace colonnade {
 namespace {
 
 constexpr const char* kMagic = "colonnade-map";
-constexpr const char* kVersion = "3";
+constexpr const char* kVersion = "4";
+constexpr const char* kSources[] = {"camera", "readings"};
 
 /// FNV-1a, 64 bits (Fowler, Noll, Vo; RFC 9923): finds damage, not malice.
 std::string checksum(std::string_view text) {
@@ -73,6 +75,12 @@ class Reader {
     return static_cast<int>(value);
   }
   LandmarkId id() { return LandmarkId{integer(0)}; }
+  SavedMap::Source source() {
+    const std::string name = word();
+    const auto* const found = std::find(std::begin(kSources), std::end(kSources), name);
+    if (found == std::end(kSources)) fail("maps are made from camera or readings, not " + name);
+    return static_cast<SavedMap::Source>(found - std::begin(kSources));
+  }
   [[noreturn]] void fail(const std::string& what) const {
     throw Error(where_ + ":" + std::to_string(line_) + ": damaged map: " + what);
   }
@@ -122,6 +130,7 @@ void readBlock(Reader& reader, State& state) {
 std::string MapFile::text(const SavedMap& map) {
   const State& state = map.state;
   std::string text = std::string(kMagic) + " " + kVersion + "\n";
+  text += Writer("source").word(kSources[static_cast<int>(map.source)]).line();
   text += Writer("way").add(map.book.way_m_).line();
   text += Writer("blocks").add(static_cast<int>(state.blocks.size())).line();
   for (const Block& block : state.blocks) text += blockLine(state, block);
@@ -131,6 +140,9 @@ std::string MapFile::text(const SavedMap& map) {
     for (Eigen::Index column = 3; column <= row; ++column) w.add(state.P(row, column));
     text += w.line();
   }
+  text += Writer("identities").add(static_cast<int>(map.identities.size())).line();
+  for (const auto& [id, identity] : map.identities)
+    text += Writer("identity").add(id).add(identity).line();
   text += Writer("pages").add(static_cast<int>(map.book.pages_.size())).line();
   for (const auto& [id, page] : map.book.pages_) {
     Writer w("page");
@@ -189,6 +201,8 @@ SavedMap MapFile::read(const std::filesystem::path& path) {
   State& state = map.state;
   Reader reader(std::string_view(text).substr(0, seal), path.string());
   reader.expect(kMagic);
+  reader.expect("source");
+  map.source = reader.source();
   reader.expect("way");
   map.book.way_m_ = reader.number();
   reader.expect("blocks");
@@ -201,6 +215,13 @@ SavedMap MapFile::read(const std::filesystem::path& path) {
   }
   if (!state.x.allFinite() || !state.P.allFinite() || (state.P.diagonal().array() < 0.0).any())
     reader.fail("numbers that no map holds");
+  reader.expect("identities");
+  for (int left = reader.integer(0); left > 0; --left) {
+    reader.expect("identity");
+    const LandmarkId id = reader.id();
+    if (!state.find(id) || !map.identities.emplace(id, reader.integer(0)).second)
+      reader.fail("an identity of no landmark, or a second one");
+  }
   reader.expect("pages");
   for (int left = reader.integer(0); left > 0; --left) {
     reader.expect("page");

@@ -69,8 +69,7 @@ Mapper::Mapper(const MapperOptions& options)
 Mapper::Mapper(const MapperOptions& options, Resumption from) : Mapper(options) {
   Estimate& e = estimate_;
   e.filter = EkfSlam(options.filter, std::move(from.map.state));
-  const Eigen::Vector3d sigma(from.sigma_m, from.sigma_m, from.sigma_heading);
-  e.filter.placeRobot(from.T_world_robot, sigma.cwiseAbs2().asDiagonal());
+  e.filter.placeRobot(from.T_world_robot, from.covariance());
   if (from.localize) e.filter.fixMap();
   // A start the association cannot rely on: landmarks of now must first be found among those of
   // then.

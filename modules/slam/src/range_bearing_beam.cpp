@@ -74,7 +74,7 @@ class Beam {
       const double weight = hypothesis.log_weight;
       children.push_back(
           {h, Choice::kOutlier, {}, weight + std::log(options_.outlier_share / view)});
-      if (!hypothesis.landmarkOf(reading.identity))
+      if (hypothesis.grows() && !hypothesis.landmarkOf(reading.identity))
         children.push_back({h, Choice::kBirth, {}, weight + std::log(options_.birth_share / view)});
       for (const LandmarkId id : hypothesis.allowed(reading.identity)) {
         if (!mayBe(hypothesis.filter, id, reading.measurement)) continue;

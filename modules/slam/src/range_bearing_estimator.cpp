@@ -69,8 +69,10 @@ Eigen::Matrix2d turnOf(const RangeBearingHypothesis& hypothesis) {
 }  // namespace
 
 struct RangeBearingEstimator::Impl {
-  Impl(const RangeBearingOptions& o, const FilterOptions& filter_options) : options(o) {
-    hypotheses.emplace_back(options, filter_options);
+  explicit Impl(const RangeBearingOptions& o) : options(o) {
+    if (options.bearing_only && !options.use_ids)
+      throw Error("RangeBearing.bearing_only needs identities: leave use_ids = true",
+                  ExitCode::kUsage);
   }
 
   RangeBearingOptions options;
@@ -122,10 +124,17 @@ struct RangeBearingEstimator::Impl {
 
 RangeBearingEstimator::RangeBearingEstimator(const RangeBearingOptions& options,
                                              const FilterOptions& filter_options)
-    : impl_(std::make_unique<Impl>(options, filter_options)) {
-  if (options.bearing_only && !options.use_ids)
-    throw Error("RangeBearing.bearing_only needs identities: leave use_ids = true",
+    : impl_(std::make_unique<Impl>(options)) {
+  impl_->hypotheses.emplace_back(impl_->options, filter_options);
+}
+RangeBearingEstimator::RangeBearingEstimator(const RangeBearingOptions& options,
+                                             const FilterOptions& filter_options,
+                                             const Resumption& from)
+    : impl_(std::make_unique<Impl>(options)) {
+  if (from.map.source != SavedMap::Source::kReadings)
+    throw Error("the map was made from cameras, and the log holds landmark readings",
                 ExitCode::kUsage);
+  impl_->hypotheses.emplace_back(impl_->options, filter_options, from);
 }
 RangeBearingEstimator::~RangeBearingEstimator() = default;
 RangeBearingEstimator::RangeBearingEstimator(RangeBearingEstimator&&) noexcept = default;
@@ -205,6 +214,7 @@ LandmarkMap RangeBearingEstimator::map() const {
   }
   return map;
 }
+SavedMap RangeBearingEstimator::savedMap() const { return impl_->hypotheses.front().savedMap(); }
 std::optional<int> RangeBearingEstimator::identityOf(LandmarkId landmark) const {
   return impl_->hypotheses.front().identityOf(landmark);
 }

@@ -39,6 +39,19 @@ RangeBearingHypothesis::RangeBearingHypothesis(const RangeBearingOptions& option
                                                const FilterOptions& filter_options)
     : filter(withGate(filter_options, options)), options_(&options) {}
 
+RangeBearingHypothesis::RangeBearingHypothesis(const RangeBearingOptions& options,
+                                               const FilterOptions& filter_options,
+                                               const Resumption& from)
+    : filter(withGate(filter_options, options), from.map.state),
+      options_(&options),
+      grows_(!from.localize),
+      identity_of_landmark_(from.map.identities) {
+  for (const auto& [landmark, identity] : from.map.identities)
+    landmark_of_identity_.emplace(identity, landmark);
+  filter.placeRobot(from.T_world_robot, from.covariance());
+  if (from.localize) filter.fixMap();
+}
+
 std::optional<LandmarkId> RangeBearingHypothesis::landmarkOf(int identity) const {
   const auto found = landmark_of_identity_.find(identity);
   if (identity < 0 || found == landmark_of_identity_.end()) return std::nullopt;
@@ -95,9 +108,10 @@ std::vector<WorldAnchor> RangeBearingHypothesis::anchors() const {
 
 std::vector<bool> RangeBearingHypothesis::update(std::span<const Match> matches,
                                                  double noise_scale) {
-  const auto before = options_->world_with_map ? anchors() : std::vector<WorldAnchor>{};
+  const bool world_moves = options_->world_with_map && grows_;
+  const auto before = world_moves ? anchors() : std::vector<WorldAnchor>{};
   auto used = filter.update(matches, noise_scale);
-  if (options_->world_with_map)
+  if (world_moves)
     if (const auto back = motionOfMap(before, anchors())) T_world_start = T_world_start * *back;
   return used;
 }
@@ -131,6 +145,7 @@ bool RangeBearingHypothesis::strike(LandmarkId landmark, const ReadingFrame& fra
                       "all readings in a row refused: the pose is in doubt"});
     return true;
   }
+  if (!grows_) return false;
   const int strikes = ++strikes_[landmark];
   if (strikes < kFewestStrikes || strikes <= filter.evidence(landmark).observations) return false;
   events.push_back(event(frame, "purged", landmark, "refused more often than seen"));
@@ -208,6 +223,22 @@ void RangeBearingHypothesis::endFrame(const ReadingFrame& frame, std::vector<Eve
     events.push_back(event(frame, "purged", id, "too few sightings"));
     forget(id);
   }
+}
+
+SavedMap RangeBearingHypothesis::savedMap() const {
+  SavedMap map;
+  map.source = SavedMap::Source::kReadings;
+  map.identities = identity_of_landmark_;
+  EkfSlam all(filter.options(), filter.fullState());
+  std::vector<LandmarkId> clones;
+  for (const Block& block : all.state().blocks)
+    if (!block.isLandmark()) clones.push_back(block.id);
+  for (const LandmarkId id : clones) all.remove(id);
+  all.placeRobot({}, Eigen::Matrix3d::Zero());
+  map.state = all.state();
+  moveWorld(map.state, T_world_start);
+  map.state.x.head<3>().setZero();
+  return map;
 }
 
 }  // namespace colonnade

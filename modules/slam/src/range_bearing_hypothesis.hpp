@@ -10,6 +10,7 @@
 #include "colonnade/filter/ekf_slam.hpp"
 #include "colonnade/slam/event.hpp"
 #include "colonnade/slam/range_bearing_options.hpp"
+#include "colonnade/slam/resumption.hpp"
 #include "range_bearing_history.hpp"
 #include "range_bearing_world.hpp"
 
@@ -36,6 +37,8 @@ Eigen::Matrix3d lostCovariance();
 class RangeBearingHypothesis {
  public:
   RangeBearingHypothesis(const RangeBearingOptions& options, const FilterOptions& filter_options);
+  RangeBearingHypothesis(const RangeBearingOptions& options, const FilterOptions& filter_options,
+                         const Resumption& from);
 
   EkfSlam filter;
   /// The filter's world starts with the log. When a correction moves its map as a whole, as the
@@ -45,8 +48,12 @@ class RangeBearingHypothesis {
   ReadingHistories::Leaf leaf = ReadingHistories::kRoot;
   std::vector<LandmarkId> used;  ///< landmarks seen in the present frame
 
+  /// Whether new landmarks are founded; not in a map that is left as it is.
+  bool grows() const { return grows_; }
   std::optional<LandmarkId> landmarkOf(int identity) const;
   std::optional<int> identityOf(LandmarkId landmark) const;
+  /// A reading of nothing in a map that does not grow.
+  void refuseNew() { filter.health().refuse("no landmark of the map"); }
   /// The landmarks a reading may be of: the bearer of its identity, or, for an identity nobody
   /// bears yet, those without one; for a reading without identity all. Not those already used.
   std::vector<LandmarkId> allowed(int identity) const;
@@ -64,9 +71,9 @@ class RangeBearingHypothesis {
   /// Books a reading the filter used.
   void observe(LandmarkId landmark, const LandmarkReading& reading, const ReadingFrame& frame);
   /// Books a reading the gate kept from the landmark of its identity. A landmark refused more often
-  /// in a row than it was ever seen stands at a wrong place: it is forgotten. When readings of
-  /// several landmarks are refused and none is used in between, the pose becomes uncertain.
-  /// Whether it did.
+  /// in a row than it was ever seen stands at a wrong place: it is forgotten, if the map grows.
+  /// When readings of several landmarks are refused and none is used in between, the pose becomes
+  /// uncertain. Whether it did.
   bool strike(LandmarkId landmark, const ReadingFrame& frame, std::vector<Event>& events);
 
   /// A bearing to an identity the map does not know: a landmark somewhere on its ray, or, with
@@ -78,6 +85,9 @@ class RangeBearingHypothesis {
   /// What ends a frame: points settle, landmarks seen too seldom go.
   void endFrame(const ReadingFrame& frame, std::vector<Event>& events);
 
+  /// The map with its identities, in the world of T_world_start.
+  SavedMap savedMap() const;
+
  private:
   struct FirstBearing {
     LandmarkId clone{};
@@ -88,6 +98,7 @@ class RangeBearingHypothesis {
   void release(LandmarkId clone);
 
   const RangeBearingOptions* options_;
+  bool grows_ = true;
   std::map<int, LandmarkId> landmark_of_identity_;
   std::map<LandmarkId, int> identity_of_landmark_;
   std::map<LandmarkId, int> strikes_;

@@ -106,6 +106,10 @@ ReadingDecisions decideJointly(const ReadingFrame& frame, const RangeBearingOpti
   int births = 0;
   for (std::size_t i = 0; i < count; ++i) {
     if (!plan.may_found[i]) continue;
+    if (!hypothesis.grows()) {
+      hypothesis.refuseNew();
+      continue;
+    }
     if (frame.readings[i].identity < 0 && ++births > kMostBirths) {
       hypothesis.filter.health().refuse("too many new landmarks in one frame");
       continue;

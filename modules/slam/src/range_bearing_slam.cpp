@@ -19,6 +19,7 @@
 #include <ostream>
 
 #include "colonnade/base/angle.hpp"
+#include "colonnade/base/atomic_file.hpp"
 #include "colonnade/base/config.hpp"
 #include "colonnade/base/error.hpp"
 #include "colonnade/base/text.hpp"
@@ -55,6 +56,7 @@ RangeBearingOptions effective(const RangeBearingSlam::TOptions& options) {
                                                                              : "hypotheses";
   o.metric = options.data_assoc_metric == RangeBearingSlam::metricML ? "likelihood" : "mahalanobis";
   o.gate_probability = options.data_assoc_IC_chi2_thres;
+  o.world_with_map = false;
   return o;
 }
 
@@ -157,6 +159,16 @@ void RangeBearingSlam::reset() {
   estimator_ = std::make_unique<RangeBearingEstimator>(effective(options), options.filter);
   last_ = {};
   steps_ = 0.0;
+}
+
+void RangeBearingSlam::saveMap(const std::filesystem::path& file) const {
+  writeFileAtomically(file, MapFile::text(estimator_->savedMap()));
+}
+
+void RangeBearingSlam::loadMap(const std::filesystem::path& file, const MapStart& start) {
+  const Resumption from{start, MapFile::read(file)};
+  reset();
+  estimator_ = std::make_unique<RangeBearingEstimator>(effective(options), options.filter, from);
 }
 
 void RangeBearingSlam::processActionObservation(

@@ -57,6 +57,9 @@ void augment(State& state, Block block, const BlockVector& values, const SparseJ
 void replaceBlock(State& state, LandmarkId id, BlockKind kind, const BlockVector& values,
                   const Eigen::MatrixXd& J);
 
+/// The same state in another world: places, directions and their covariance. Nothing may rest.
+void moveWorld(State& state, const Pose2& T_new_old);
+
 /// Takes a block out of the state: the others keep their marginal.
 void removeBlock(State& state, LandmarkId id);
 

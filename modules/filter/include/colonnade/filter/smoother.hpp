@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "colonnade/base/measurement.hpp"
@@ -25,10 +26,18 @@ struct Drive {
     bool used =
         true;  ///< set by smooth(); false: too far off to be of this point, or no measurement
   };
+  /// What is known beforehand: of the first pose, and of the first points together.
+  struct Prior {
+    Pose2 T_world_start;
+    Eigen::Matrix3d information_start;  ///< inverse covariance of (x, y, phi)
+    std::vector<Eigen::Vector2d> points_world;
+    Eigen::MatrixXd information_points;  ///< two rows for each of them
+  };
   std::vector<Pose2> T_world_robot;  ///< one for each frame
   std::vector<Motion> motions;       ///< as many as poses; the first has no say
   std::vector<Eigen::Vector2d> points_world;
   std::vector<Sighting> sightings;
+  std::optional<Prior> prior = {};  ///< none: the first pose is given, the points are anywhere
 };
 
 struct Smoothing {
@@ -38,19 +47,20 @@ struct Smoothing {
   /// Sum of squared Mahalanobis distances; of sightings their Huber loss, of an unused one that of
   /// a sighting just at the gate.
   double cost = 0.0;
-  /// Of each point, square metres, given the first pose; empty for more than 500 points.
-  std::vector<Eigen::Matrix2d> point_covariances;
+  /// Of all points together, two rows for each, square metres, given the first pose or the prior;
+  /// empty for more than 500 points.
+  Eigen::MatrixXd covariance;
 };
 
 /// The likeliest poses and points of a drive given all of its motions and sightings, found from
 /// those it holds: nonlinear least squares (Dellaert and Kaess, Square Root SAM, International
 /// Journal of Robotics Research 25(12), 2006) with Levenberg's damping. Unlike a filter's estimate
 /// every derivative is taken at the result and later sightings correct earlier poses. The first
-/// pose stays. Sightings off by more than what one in a hundred is off by pull with Huber's loss;
-/// those outside the gate of `gate_probability` at the end are marked unused and the rest is solved
-/// again. Stretches bent to suit wrong sightings, between two motions outside the gate, are tried
-/// without them; of many or long ones only the first (see kMostTrials). Throws nothing; a drive
-/// without a sighting is left as it is.
+/// pose stays, unless a prior says how well it is known. Sightings off by more than what one in a
+/// hundred is off by pull with Huber's loss; those outside the gate of `gate_probability` at the
+/// end are marked unused and the rest is solved again. Stretches bent to suit wrong sightings,
+/// between two motions outside the gate, are tried without them; of many or long ones only the
+/// first (see kMostTrials). Throws nothing; a drive without a sighting is left as it is.
 Smoothing smooth(Drive& drive, double gate_probability);
 
 }  // namespace colonnade

@@ -23,6 +23,8 @@ class DriveRecord {
   struct Smoothed {
     Trajectory trajectory;
     LandmarkMap map;
+    /// Of the map's places together, two rows for each; empty for more than 500 landmarks.
+    Eigen::MatrixXd covariance;
     Smoothing how;
   };
   /// The drive past the landmarks the estimator knows at the end, with its last word on which
@@ -31,8 +33,11 @@ class DriveRecord {
   /// none of whose readings was used stays. With RangeBearing.world_with_map it is put back where
   /// the estimator has it if it moved as a whole. Nothing when there is no reading of a landmark,
   /// or when smoothing failed: not finite, or half of the readings left out.
+  /// from: the map the estimator went on from. Start and map then count as far as they are known,
+  /// and a map that is left as it is stays; nothing for more than 500 landmarks in it.
   std::optional<Smoothed> smoothed(const RangeBearingEstimator& estimator,
-                                   const RangeBearingOptions& options) const;
+                                   const RangeBearingOptions& options,
+                                   const std::optional<Resumption>& from = std::nullopt) const;
 
  private:
   struct Reading {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -13,9 +14,13 @@
 namespace colonnade {
 
 /// All that a later run needs to go on from a map or to find its way in it: landmarks and axes with
-/// their joint covariance, what is known of their looks, the hallways.
+/// their joint covariance, what is known of their looks, the hallways; of landmark readings the
+/// identities.
 struct SavedMap {
-  State state;  ///< landmarks and axes; the robot's entries are zero
+  enum class Source { kCamera, kReadings };
+  Source source = Source::kCamera;
+  State state;                           ///< landmarks and axes; the robot's entries are zero
+  std::map<LandmarkId, int> identities;  ///< in the log, of the landmarks that have one
   LandmarkBook book;
   std::vector<LandmarkId> axes;
   std::vector<Hallway> hallways;

@@ -16,8 +16,8 @@
 #include "colonnade/slam/initializer.hpp"
 #include "colonnade/slam/landmark_book.hpp"
 #include "colonnade/slam/loop_closer.hpp"
-#include "colonnade/slam/map_file.hpp"
 #include "colonnade/slam/observation.hpp"
+#include "colonnade/slam/resumption.hpp"
 #include "colonnade/slam/trail.hpp"
 #include "colonnade/slam/twins.hpp"
 #include "colonnade/slam/upkeep.hpp"
@@ -46,15 +46,6 @@ struct MapperOptions {
     take(upkeep);
     take(trail);
   }
-};
-
-/// A map to go on from, and where in it the robot starts.
-struct Resumption {
-  SavedMap map;
-  bool localize = false;  ///< the map is fixed, only the pose is estimated
-  Pose2 T_world_robot;
-  double sigma_m = 0.05;
-  double sigma_heading = radians(1.0);
 };
 
 /// What one frame did to the map.

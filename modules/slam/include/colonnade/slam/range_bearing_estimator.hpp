@@ -11,6 +11,7 @@
 #include "colonnade/motion/motion.hpp"
 #include "colonnade/slam/event.hpp"
 #include "colonnade/slam/range_bearing_options.hpp"
+#include "colonnade/slam/resumption.hpp"
 
 namespace colonnade {
 
@@ -46,6 +47,10 @@ class RangeBearingEstimator {
   /// Throws Error (kUsage) for options that contradict each other. Filter.gate_probability and
   /// Filter.error_correlation_s give way to those of RangeBearingOptions.
   RangeBearingEstimator(const RangeBearingOptions& options, const FilterOptions& filter_options);
+  /// Goes on from a map, or finds its way in it and founds no landmark. Throws Error (kUsage)
+  /// besides for a map made from cameras.
+  RangeBearingEstimator(const RangeBearingOptions& options, const FilterOptions& filter_options,
+                        const Resumption& from);
   ~RangeBearingEstimator();
   RangeBearingEstimator(RangeBearingEstimator&&) noexcept;
   RangeBearingEstimator& operator=(RangeBearingEstimator&&) noexcept;
@@ -61,6 +66,8 @@ class RangeBearingEstimator {
   Pose2 pose() const;
   Eigen::Matrix3d poseCovariance() const;
   LandmarkMap map() const;
+  /// What a later run needs to go on; in the world of map().
+  SavedMap savedMap() const;
   /// The identity in the log, where it is believed and known.
   std::optional<int> identityOf(LandmarkId landmark) const;
   /// The landmark of every reading so far, in the order of the log.

@@ -18,9 +18,10 @@ namespace colonnade {
 /// like Session. At the end the whole drive is smoothed (RangeBearing.smooth).
 class RangeBearingSession {
  public:
-  /// Throws Error (kUsage) for options that contradict each other.
+  /// from: a map to go on from. Throws Error (kUsage) for options that contradict each other and
+  /// for a map made from cameras.
   RangeBearingSession(const RangeBearingOptions& options, const FilterOptions& filter,
-                      const MotionOptions& motion);
+                      const MotionOptions& motion, std::optional<Resumption> from = std::nullopt);
 
   /// Called after each frame; false stops the run.
   using Observer = std::function<bool(const Frame&, const StepReport&, const RangeBearingSession&)>;
@@ -34,12 +35,15 @@ class RangeBearingSession {
   /// Smoothed, once it is. Where the log's identities are believed and every landmark has one, they
   /// are the ids of the map; otherwise those of the filter.
   LandmarkMap map() const;
+  /// What a later run needs to go on: smoothed, once it is, up to 500 landmarks.
+  SavedMap savedMap() const;
   std::size_t axisCount() const { return 0; }
   /// The decisions against the identities of the log, also where those are hidden from the filter.
   IdentityScore identityScore() const;
 
  private:
   RangeBearingOptions options_;
+  std::optional<Resumption> from_;
   RangeBearingEstimator estimator_;
   MotionEstimator motion_;
   DriveRecord record_;

@@ -5,6 +5,7 @@
 #include <mrpt/config/CLoadableOptions.h>
 
 #include <array>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <vector>
@@ -68,6 +69,13 @@ class RangeBearingSlam {
 
   /// Forgets everything; takes `options` as they are now.
   void reset();
+
+  /// Writes what a later run needs to go on: landmarks, their joint covariance and identities.
+  /// Throws Error.
+  void saveMap(const std::filesystem::path& file) const;
+  /// reset(), in a map written by saveMap() or `colonnade run`. Throws Error naming the file and
+  /// what is wrong with it.
+  void loadMap(const std::filesystem::path& file, const MapStart& start = {});
 
   /// One step: the best motion of the actions (none: standing still with stds_Q_no_odo), then the
   /// CObservationBearingRange of the frame. Throws Error when the frame holds none.
