@@ -11,6 +11,7 @@
 
 #include "colonnade/accelerator/rtl_backend.hpp"
 #include "colonnade/base/atomic_file.hpp"
+#include "colonnade/base/text.hpp"
 #include "colonnade/maps/landmark_csv.hpp"
 #include "colonnade/slam/range_bearing_session.hpp"
 #include "interrupt.hpp"
@@ -26,6 +27,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kAnywhere = "anywhere";
+
 struct RunArguments {
   fs::path log;
   fs::path config;
@@ -35,7 +38,7 @@ struct RunArguments {
   std::vector<std::string> assignments;
   fs::path map;
   bool localize = false;
-  std::vector<double> start;  ///< x, y in metres, heading in degrees
+  std::string start;  ///< x,y in metres, heading in degrees; or anywhere
 };
 
 /// Truth in the world of the estimate, for the picture.
@@ -133,7 +136,8 @@ std::optional<TrajectoryScore> scoreAgainst(const Trajectory& truth, const Traje
 
 /// What went wrong or was left out, a line each, and the exit code it amounts to.
 ExitCode conclude(const RunArguments& arguments, const RunSummary& summary,
-                  const std::vector<std::string>& notes, const std::string& not_scored) {
+                  const std::vector<std::string>& notes, const std::string& not_scored,
+                  const PlaceSearch* search) {
   const auto say = [&](const std::string& line) {
     std::fprintf(stderr, "%s: %s\n", arguments.log.c_str(), line.c_str());
   };
@@ -147,7 +151,12 @@ ExitCode conclude(const RunArguments& arguments, const RunSummary& summary,
     say("interrupted after " + std::to_string(summary.frames_processed) + " frames");
     return ExitCode::kInterrupted;
   }
-  if (!not_scored.empty()) return ExitCode::kFailed;
+  if (search)
+    say("the place in " + arguments.map.string() + " was not found (" + search->last().refusal +
+        ": " + std::to_string(search->last().fits) + " of " + std::to_string(search->last().of) +
+        " places, elsewhere " + std::to_string(search->last().elsewhere) +
+        "); the results are a map of its own");
+  if (!not_scored.empty() || search) return ExitCode::kFailed;
   return summary.damage.any() ? ExitCode::kLossy : ExitCode::kDone;
 }
 
@@ -176,8 +185,20 @@ std::ptrdiff_t landmarksIn(const EkfSlam& filter) {
   return std::count_if(blocks.begin(), blocks.end(), [](const Block& b) { return b.isLandmark(); });
 }
 
+/// x,y,heading of --start.
+Pose2 startOf(const std::string& text) {
+  const auto parts = fields(text, ',');
+  std::vector<double> numbers;
+  for (const std::string& part : parts)
+    if (const auto value = parseDouble(part)) numbers.push_back(*value);
+  if (parts.size() != 3 || numbers.size() != 3)
+    throw Error("--start " + text + ": give x,y,heading (m, m, degrees), or " + kAnywhere,
+                ExitCode::kUsage);
+  return {numbers[0], numbers[1], radians(numbers[2])};
+}
+
 /// The map of a former run, if one is asked for, and where in it this one starts.
-std::optional<Resumption> resumption(const RunArguments& arguments, const ResumeOptions& options) {
+std::optional<Resumption> resumption(const RunArguments& arguments, const RunOptions& options) {
   if (arguments.map.empty()) {
     if (arguments.localize || !arguments.start.empty())
       throw Error("--localize and --start need --map FILE", ExitCode::kUsage);
@@ -186,10 +207,13 @@ std::optional<Resumption> resumption(const RunArguments& arguments, const Resume
   Resumption from;
   from.map = MapFile::read(arguments.map);
   from.localize = arguments.localize;
-  if (!arguments.start.empty())
-    from.T_world_robot = {arguments.start[0], arguments.start[1], radians(arguments.start[2])};
-  from.sigma_m = options.start_sigma_m;
-  from.sigma_heading = options.start_sigma_heading;
+  from.T_world_robot = from.map.T_world_start;
+  if (arguments.start == kAnywhere)
+    from.anywhere = options.places;
+  else if (!arguments.start.empty())
+    from.T_world_robot = startOf(arguments.start);
+  from.covariance =
+      MapStart::startCovariance(options.resume.start_sigma_m, options.resume.start_sigma_heading);
   return from;
 }
 
@@ -206,7 +230,8 @@ ExitCode runSession(AnySession& session, FrameSource& source, const RunInputs& i
   const auto start = std::chrono::steady_clock::now();
 
   session.run(source, [&](const Frame& frame, const StepReport& report, const AnySession& now) {
-    recorder.add(frame, report, poseOf(now), poseCovarianceOf(now));
+    recorder.add(frame, report, now.search() ? std::nullopt : std::optional(poseOf(now)),
+                 poseCovarianceOf(now));
     maps.add(frame, poseOf(now), poseCovarianceOf(now), report.motion.T_previous_robot,
              report.motion.covariance);
     progress.show(source.progress(), recorder.frames(),
@@ -226,7 +251,8 @@ ExitCode runSession(AnySession& session, FrameSource& source, const RunInputs& i
   summary.landmarks = session.map();
   summary.axes = session.axisCount();
   std::string not_scored;
-  summary.score = scoreAgainst(truth, recorder.trajectory(), recorder.covariances(), not_scored);
+  if (!session.search())
+    summary.score = scoreAgainst(truth, recorder.trajectory(), recorder.covariances(), not_scored);
   Trajectory final = finalTrajectory(session);
   if (final.empty()) final = recorder.trajectory();
   summary.final_score = scoreAgainst(truth, final, {}, not_scored);
@@ -247,7 +273,7 @@ ExitCode runSession(AnySession& session, FrameSource& source, const RunInputs& i
   std::printf("%sresults    %s\n", toText(json).c_str(), folder.c_str());
   std::vector<std::string> notes = log.notes();
   for (const std::string& note : notesOf(session)) notes.push_back(note);
-  return conclude(arguments, summary, notes, not_scored);
+  return conclude(arguments, summary, notes, not_scored, session.search());
 }
 
 ExitCode run(const RunArguments& arguments) {
@@ -261,7 +287,7 @@ ExitCode run(const RunArguments& arguments) {
   const bool readings_only = isRangeBearingLog(arguments.log, options.source);
   RawlogSource log(arguments.log, options.source);
   const RunInputs inputs{arguments, options, truth, log};
-  auto from = resumption(arguments, options.resume);
+  auto from = resumption(arguments, options);
   const auto made_from = readings_only ? SavedMap::Source::kReadings : SavedMap::Source::kCamera;
   if (from && from->map.source != made_from)
     throw Error(arguments.map.string() + ": made from " +
@@ -296,13 +322,13 @@ Action addRun(CLI::App& verb) {
   verb.add_option("--map", arguments->map, "map.colonnade of a former run, to go on from");
   verb.add_flag("--localize", arguments->localize, "with --map: leave it as it is, find the pose");
   verb.add_option("--start", arguments->start,
-                  "with --map: x,y,heading where the robot starts in it (m, m, degrees)")
-      ->delimiter(',')
-      ->expected(3);
+                  "with --map: x,y,heading where the robot starts in it (m, m, degrees), or "
+                  "anywhere: it is found");
   verb.footer(
       "Examples:\n"
       "  colonnade run rawlogs/corridor.rawlog\n"
       "  colonnade run monday.rawlog --map sunday_results/map.colonnade --localize\n"
+      "  colonnade run monday.rawlog --map sunday_results/map.colonnade --start anywhere\n"
       "  colonnade run corridor.rawlog -o map --ground-truth corridor_ground_truth.tum\n"
       "  colonnade run corridor.rawlog --set Filter.invariant=false --set Axes.enabled=false\n"
       "  colonnade run robot3.rawlog --set RangeBearing.use_ids=false   (landmark readings)");

@@ -34,6 +34,7 @@ struct RunOptions {
   ScanOptions scans;
   MapOptions maps;
   ResumeOptions resume;
+  PlaceOptions places;  ///< for a start anywhere in a loaded map
 
   template <class Take>
   void each(Take&& take) {
@@ -43,6 +44,7 @@ struct RunOptions {
     take(scans);
     take(maps);
     take(resume);
+    take(places);
   }
 };
 

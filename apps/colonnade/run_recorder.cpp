@@ -7,14 +7,17 @@
 
 namespace colonnade {
 
-void RunRecorder::add(const Frame& frame, const StepReport& report, const Pose2& T_world_robot,
+void RunRecorder::add(const Frame& frame, const StepReport& report,
+                      const std::optional<Pose2>& T_world_robot,
                       const Eigen::Matrix3d& covariance) {
-  const StampedPose pose{frame.stamp_s, T_world_robot.toIsometry3()};
-  if (!trajectory_.empty())
-    path_length_m_ +=
-        (pose.T_world_body.translation() - trajectory_.back().T_world_body.translation()).norm();
-  trajectory_.push_back(pose);
-  covariances_.push_back({frame.stamp_s, covariance});
+  if (T_world_robot) {
+    const StampedPose pose{frame.stamp_s, T_world_robot->toIsometry3()};
+    if (!trajectory_.empty())
+      path_length_m_ +=
+          (pose.T_world_body.translation() - trajectory_.back().T_world_body.translation()).norm();
+    trajectory_.push_back(pose);
+    covariances_.push_back({frame.stamp_s, covariance});
+  }
   times_.push_back(report.times_ms);
   events_.insert(events_.end(), report.events.begin(), report.events.end());
   const Detections& detections = report.detections;

@@ -5,6 +5,7 @@
 #include <array>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,12 +19,14 @@ namespace colonnade {
 /// few kilobytes a frame at most.
 class RunRecorder {
  public:
-  void add(const Frame& frame, const StepReport& report, const Pose2& T_world_robot,
+  /// Without a pose, as long as nobody knows where in a map the robot is, it has no place in the
+  /// trajectory.
+  void add(const Frame& frame, const StepReport& report, const std::optional<Pose2>& T_world_robot,
            const Eigen::Matrix3d& covariance);
   /// trajectory.tum, trajectory_covariance.csv, trajectory_final.tum (`final`), events.csv.
   void write(const std::filesystem::path& folder, const Trajectory& final) const;
 
-  std::size_t frames() const { return trajectory_.size(); }
+  std::size_t frames() const { return times_.size(); }
   double duration() const;
   double pathLength() const { return path_length_m_; }
   const Trajectory& trajectory() const { return trajectory_; }

@@ -274,8 +274,7 @@ TEST_F(SavedMaps, ServeToLocaliseWithoutChanging) {
     from.map = MapFile::read(write(text()));
     from.localize = true;
     from.T_world_robot = {0.14, -0.1, radians(1.0)};  // in truth it starts at the origin
-    from.sigma_m = 0.2;
-    from.sigma_heading = radians(2.0);
+    from.covariance = MapStart::startCovariance(0.2, radians(2.0));
     const State known = from.map.state;
     testing::PlanDrive plan(world("ring"), seed);
     Mapper mapper({}, std::move(from));
@@ -304,9 +303,8 @@ TEST_F(SavedMaps, GrowOnAndLocaliseFromAnUncertainStart) {
   from = {};
   from.map = MapFile::read(write(text()));
   from.localize = true;
-  from.sigma_m = 0.5;
   from.T_world_robot = {0.4, -0.2, radians(1.0)};  // it starts at the origin in truth
-  from.sigma_heading = radians(2.0);
+  from.covariance = MapStart::startCovariance(0.5, radians(2.0));
   testing::PlanDrive again(world("ring"), 24);
   Mapper lost({}, std::move(from));
   EXPECT_LT(drive(again, lost).end_m, 0.15);

@@ -116,8 +116,7 @@ Resumption resumption(bool localize) {
   from.localize = localize;
   from.T_world_robot = RingOfPosts::poseAfter(1).inverse() *
                        RingOfPosts::poseAfter(kStartOfDay2 + 1) * Pose2{0.1, -0.08, radians(2.0)};
-  from.sigma_m = 0.1;
-  from.sigma_heading = radians(2.0);
+  from.covariance = MapStart::startCovariance(0.1, radians(2.0));
   return from;
 }
 
@@ -255,8 +254,7 @@ TEST_F(ReadingMaps, AreSavedAndLoadedByTheFaceOfMrptsFilter) {
   MapStart start;
   start.localize = true;
   start.T_world_robot = {0.9, 0.6, radians(10.0)};
-  start.sigma_m = 0.3;
-  start.sigma_heading = radians(10.0);
+  start.covariance = MapStart::startCovariance(0.3, radians(10.0));
   slam.loadMap(folder_ / "map.colonnade", start);
   for (int i = 0; i < 20; ++i) step({1.0, 0.5, radians(20.0)});
   mrpt::poses::CPosePDFGaussian pose;

@@ -39,7 +39,7 @@ std::optional<Drive::Prior> priorOf(const Resumption& from, const LandmarkMap& n
   if (prior.points_world.size() > kMostOfMap) return std::nullopt;
   Eigen::Matrix3d J_start, J_motion;
   prior.T_world_start = compose(from.T_world_robot, first.T_previous_robot, &J_start, &J_motion);
-  const Eigen::Matrix3d P = J_start * from.covariance() * J_start.transpose() +
+  const Eigen::Matrix3d P = J_start * from.covariance * J_start.transpose() +
                             J_motion * first.covariance * J_motion.transpose();
   prior.information_start = P.inverse();
   const Eigen::LLT<Eigen::MatrixXd> map(then.P(rows, rows));

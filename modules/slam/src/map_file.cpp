@@ -131,6 +131,11 @@ std::string MapFile::text(const SavedMap& map) {
   const State& state = map.state;
   std::string text = std::string(kMagic) + " " + kVersion + "\n";
   text += Writer("source").word(kSources[static_cast<int>(map.source)]).line();
+  text += Writer("start")
+              .add(map.T_world_start.x)
+              .add(map.T_world_start.y)
+              .add(map.T_world_start.phi)
+              .line();
   text += Writer("way").add(map.book.way_m_).line();
   text += Writer("blocks").add(static_cast<int>(state.blocks.size())).line();
   for (const Block& block : state.blocks) text += blockLine(state, block);
@@ -203,6 +208,10 @@ SavedMap MapFile::read(const std::filesystem::path& path) {
   reader.expect(kMagic);
   reader.expect("source");
   map.source = reader.source();
+  reader.expect("start");
+  map.T_world_start.x = reader.number();
+  map.T_world_start.y = reader.number();
+  map.T_world_start.phi = reader.number();
   reader.expect("way");
   map.book.way_m_ = reader.number();
   reader.expect("blocks");

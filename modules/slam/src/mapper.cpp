@@ -49,6 +49,8 @@ LoopOptions confirmedOnly(LoopOptions loops, const InitializationOptions& initia
   return loops;
 }
 
+/// What was seen while the place is searched is kept so long, and mapped again.
+constexpr std::size_t kMostFramesOfSearch = 3000;
 /// Of the start in a fixed map, up to which the association finds the landmarks by itself.
 constexpr double kKnownStart_m = 0.2;
 
@@ -67,13 +69,19 @@ Mapper::Mapper(const MapperOptions& options)
                 Trail(options.trail)} {}
 
 Mapper::Mapper(const MapperOptions& options, Resumption from) : Mapper(options) {
+  if (from.anywhere) {
+    search_ = std::make_shared<Search>(Search{PlaceSearch(std::move(from)), {}});
+    return;
+  }
+  T_world_start_ = from.map.T_world_start;
   Estimate& e = estimate_;
   e.filter = EkfSlam(options.filter, std::move(from.map.state));
-  e.filter.placeRobot(from.T_world_robot, from.covariance());
+  e.filter.placeRobot(from.T_world_robot, from.covariance);
   if (from.localize) e.filter.fixMap();
   // A start the association cannot rely on: landmarks of now must first be found among those of
   // then.
-  e.grows = !from.localize || from.sigma_m > kKnownStart_m;
+  const Eigen::Matrix2d P_start = from.covariance.topLeftCorner<2, 2>();
+  e.grows = !from.localize || P_start.trace() > 2.0 * kKnownStart_m * kKnownStart_m;
   e.landmarks = std::move(from.map.book);
   e.landmarks.drive(options.loops.sleep_after_m + 1e-3);
   e.axes = AxisTracker(options.axes, std::move(from.map.axes));
@@ -81,6 +89,42 @@ Mapper::Mapper(const MapperOptions& options, Resumption from) : Mapper(options) 
 }
 
 MapperReport Mapper::step(const Observation& seen) {
+  const Pose2 T_world_before = estimate_.filter.pose();
+  MapperReport report = map(seen);
+  if (search_) lookForPlace(seen, T_world_before, report);
+  return report;
+}
+
+std::vector<PlaceMark> Mapper::recentMarks(double recent_m) const {
+  const LandmarkBook& book = estimate_.landmarks;
+  return placeMarks(
+      estimate_.filter.state(),
+      [&](const Block& block) {
+        return block.evidence.observations >= options_.initialization.probation_sightings &&
+               book.way() - book.seenOnWay(block.id).last_m < recent_m;
+      },
+      [](LandmarkId) { return std::nullopt; }, [&](LandmarkId id) { return book.looks(id); });
+}
+
+void Mapper::lookForPlace(const Observation& seen, const Pose2& T_world_before,
+                          MapperReport& report) {
+  const std::shared_ptr<Search> search = search_;
+  search->since.push_back({seen, T_world_before});
+  if (search->since.size() > kMostFramesOfSearch) search->since.pop_front();
+  auto from = search->places.look(recentMarks(search->places.options().recent_m),
+                                  estimate_.filter.state(), estimate_.landmarks.way());
+  if (!from) return;
+  from->T_world_robot = from->T_world_robot * search->since.front().T_world_before;
+  *this = Mapper(options_, std::move(*from));
+  report.events.push_back(search->places.found(seen.stamp_s, seen.index));
+  for (const Search::Seen& again : search->since) {
+    MapperReport mapped = map(again.observation);
+    report.association = std::move(mapped.association);
+    report.events.insert(report.events.end(), mapped.events.begin(), mapped.events.end());
+  }
+}
+
+MapperReport Mapper::map(const Observation& seen) {
   const bool verifies = !seen.sight.rays.empty() && options_.loops.verify_m > 0.0;
   if (verifies && !snapshot_) awaitReturn();
   const int closings = estimate_.closings;
@@ -186,6 +230,7 @@ SavedMap Mapper::savedMap() const {
   for (const LandmarkId id : clones) filter.remove(id);
   filter.placeRobot({}, Eigen::Matrix3d::Zero());
   map.state = filter.state();
+  map.T_world_start = T_world_start_;
   map.book = estimate_.landmarks;
   map.axes = estimate_.axes.axes();
   map.hallways = estimate_.hallways.hallways();

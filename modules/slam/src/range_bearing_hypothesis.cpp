@@ -45,10 +45,11 @@ RangeBearingHypothesis::RangeBearingHypothesis(const RangeBearingOptions& option
     : filter(withGate(filter_options, options), from.map.state),
       options_(&options),
       grows_(!from.localize),
+      T_filter_start_(from.map.T_world_start),
       identity_of_landmark_(from.map.identities) {
   for (const auto& [landmark, identity] : from.map.identities)
     landmark_of_identity_.emplace(identity, landmark);
-  filter.placeRobot(from.T_world_robot, from.covariance());
+  filter.placeRobot(from.T_world_robot, from.covariance);
   if (from.localize) filter.fixMap();
 }
 
@@ -228,6 +229,7 @@ void RangeBearingHypothesis::endFrame(const ReadingFrame& frame, std::vector<Eve
 SavedMap RangeBearingHypothesis::savedMap() const {
   SavedMap map;
   map.source = SavedMap::Source::kReadings;
+  map.T_world_start = T_world_start * T_filter_start_;
   map.identities = identity_of_landmark_;
   EkfSlam all(filter.options(), filter.fullState());
   std::vector<LandmarkId> clones;

@@ -99,6 +99,7 @@ class RangeBearingHypothesis {
 
   const RangeBearingOptions* options_;
   bool grows_ = true;
+  Pose2 T_filter_start_;  ///< of the drive that began the map, in the filter's world
   std::map<int, LandmarkId> landmark_of_identity_;
   std::map<LandmarkId, int> identity_of_landmark_;
   std::map<LandmarkId, int> strikes_;

@@ -14,10 +14,13 @@ RangeBearingSession::RangeBearingSession(const RangeBearingOptions& options,
                                          const FilterOptions& filter, const MotionOptions& motion,
                                          std::optional<Resumption> from)
     : options_(options),
+      filter_options_(filter),
       from_(std::move(from)),
-      estimator_(from_ ? RangeBearingEstimator(options, filter, *from_)
-                       : RangeBearingEstimator(options, filter)),
-      motion_(motion, std::make_shared<CameraTracker>(motion)) {}
+      estimator_(from_ && !from_->anywhere ? RangeBearingEstimator(options, filter, *from_)
+                                           : RangeBearingEstimator(options, filter)),
+      motion_(motion, std::make_shared<CameraTracker>(motion)) {
+  if (from_ && from_->anywhere) search_.emplace(*from_);
+}
 
 void RangeBearingSession::run(FrameSource& source, const Observer& observer) {
   smoothed_.reset();
@@ -27,16 +30,44 @@ void RangeBearingSession::run(FrameSource& source, const Observer& observer) {
     report.times_ms.read = watch.lap();
     report.motion = motion_.increment(*frame);
     report.times_ms.motion = watch.lap();
-    const RangeBearingScan scan = frame->range_bearing.value_or(RangeBearingScan{});
-    for (const RangeBearing& reading : scan.readings) identities_.push_back(reading.id);
-    const RangeBearingReport seen = estimator_.step(frame->stamp_s, report.motion, scan);
-    report.events = seen.events;
-    if (options_.smooth) record_.add(frame->stamp_s, scan, seen, estimator_.pose());
+    const Taken taken{frame->stamp_s, report.motion,
+                      frame->range_bearing.value_or(RangeBearingScan{})};
+    for (const RangeBearing& reading : taken.scan.readings) identities_.push_back(reading.id);
+    report.events = take(taken).events;
+    if (search_) lookForPlace(taken, frame->index, report.events);
     report.times_ms.filter = watch.lap();
     if (!observer(*frame, report, *this)) return;
     watch.lap();  // what the observer does is no stage of the session
   }
-  if (options_.smooth) smoothed_ = record_.smoothed(estimator_, options_, from_);
+  if (options_.smooth)
+    smoothed_ = record_.smoothed(estimator_, options_, search_ ? std::nullopt : from_);
+}
+
+RangeBearingReport RangeBearingSession::take(const Taken& frame) {
+  RangeBearingReport report = estimator_.step(frame.stamp_s, frame.motion, frame.scan);
+  if (options_.smooth) record_.add(frame.stamp_s, frame.scan, report, estimator_.pose());
+  return report;
+}
+
+void RangeBearingSession::lookForPlace(const Taken& frame, std::size_t index,
+                                       std::vector<Event>& events) {
+  since_.push_back(frame);
+  way_m_ += frame.motion.T_previous_robot.translation().norm();
+  const State own = estimator_.filter().fullState();
+  const auto here = placeMarks(
+      own, [](const Block&) { return true; },
+      [&](LandmarkId id) { return estimator_.identityOf(id); }, [](LandmarkId) { return nullptr; });
+  auto from = search_->look(here, own, way_m_);
+  if (!from) return;
+  from_ = std::move(from);
+  events.push_back(search_->found(frame.stamp_s, index));
+  search_.reset();
+  estimator_ = RangeBearingEstimator(options_, filter_options_, *from_);
+  record_ = {};
+  for (const Taken& again : std::exchange(since_, {})) {
+    const RangeBearingReport report = take(again);
+    events.insert(events.end(), report.events.begin(), report.events.end());
+  }
 }
 
 LandmarkMap RangeBearingSession::map() const {
@@ -60,6 +91,8 @@ SavedMap RangeBearingSession::savedMap() const {
     state.blocks.push_back({landmark.id, BlockKind::kPoint, landmark.kind,
                             static_cast<int>(3 + 2 * state.blocks.size()), block->evidence});
   }
+  if (!from_ && !smoothed_->trajectory.empty())
+    map.T_world_start = planarPart(smoothed_->trajectory.front().T_world_body);
   const Eigen::Index size = smoothed_->covariance.rows();
   state.x.setZero(3 + size);
   state.P.setZero(3 + size, 3 + size);

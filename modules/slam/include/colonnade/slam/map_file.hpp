@@ -20,6 +20,7 @@ struct SavedMap {
   enum class Source { kCamera, kReadings };
   Source source = Source::kCamera;
   State state;                           ///< landmarks and axes; the robot's entries are zero
+  Pose2 T_world_start = {};              ///< of the drive that began the map, as known at the end
   std::map<LandmarkId, int> identities;  ///< in the log, of the landmarks that have one
   LandmarkBook book;
   std::vector<LandmarkId> axes;

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <deque>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <set>
 #include <span>
@@ -17,6 +19,7 @@
 #include "colonnade/slam/landmark_book.hpp"
 #include "colonnade/slam/loop_closer.hpp"
 #include "colonnade/slam/observation.hpp"
+#include "colonnade/slam/place_search.hpp"
 #include "colonnade/slam/resumption.hpp"
 #include "colonnade/slam/trail.hpp"
 #include "colonnade/slam/twins.hpp"
@@ -58,10 +61,14 @@ struct MapperReport {
 class Mapper {
  public:
   explicit Mapper(const MapperOptions& options);
+  /// From anywhere: maps on its own, in a world that starts with the robot, until the place in the
+  /// map is found; then all that was seen is mapped again from where the start turned out to be.
   Mapper(const MapperOptions& options, Resumption from);
 
   MapperReport step(const Observation& seen);
 
+  /// As long as nobody knows where in the map that was loaded the robot is; then nullptr.
+  const PlaceSearch* search() const { return search_ ? &search_->places : nullptr; }
   const EkfSlam& filter() const { return estimate_.filter; }
   /// Landmarks with what the book and the hallways know of them.
   LandmarkMap map() const;
@@ -102,6 +109,19 @@ class Mapper {
     bool met = false;  ///< an old landmark, since the copy
   };
 
+  /// Until the place is found.
+  struct Search {
+    struct Seen {
+      Observation observation;
+      Pose2 T_world_before;  ///< the robot, before its motion
+    };
+    PlaceSearch places;
+    std::deque<Seen> since;
+  };
+
+  MapperReport map(const Observation& seen);
+  void lookForPlace(const Observation& seen, const Pose2& T_world_before, MapperReport& report);
+  std::vector<PlaceMark> recentMarks(double recent_m) const;
   MapperReport advance(const Observation& seen);
   void keepUp(const Observation& seen, const std::vector<LandmarkId>& matched,
               std::vector<Event>& events);
@@ -117,8 +137,10 @@ class Mapper {
   static void dropBearings(Estimate& estimate);
 
   MapperOptions options_;
+  Pose2 T_world_start_;  ///< of the drive that began the map
   Associator association_;
   Estimate estimate_;
+  std::shared_ptr<Search> search_;
   std::optional<Snapshot> snapshot_;       ///< of the last closing, until it is verified
   std::optional<Snapshot> before_return_;  ///< near old landmarks, from before any was met again
 };

@@ -9,6 +9,7 @@
 #include "colonnade/frames/frame_source.hpp"
 #include "colonnade/motion/motion_estimator.hpp"
 #include "colonnade/slam/drive_record.hpp"
+#include "colonnade/slam/place_search.hpp"
 #include "colonnade/slam/range_bearing_estimator.hpp"
 #include "colonnade/slam/session.hpp"
 
@@ -35,6 +36,8 @@ class RangeBearingSession {
   /// Smoothed, once it is. Where the log's identities are believed and every landmark has one, they
   /// are the ids of the map; otherwise those of the filter.
   LandmarkMap map() const;
+  /// As long as nobody knows where in the map that was loaded the robot is; then nullptr.
+  const PlaceSearch* search() const { return search_ ? &*search_ : nullptr; }
   /// What a later run needs to go on: smoothed, once it is, up to 500 landmarks.
   SavedMap savedMap() const;
   std::size_t axisCount() const { return 0; }
@@ -42,8 +45,20 @@ class RangeBearingSession {
   IdentityScore identityScore() const;
 
  private:
+  struct Taken {
+    double stamp_s;
+    MotionIncrement motion;
+    RangeBearingScan scan;
+  };
+  RangeBearingReport take(const Taken& frame);
+  void lookForPlace(const Taken& frame, std::size_t index, std::vector<Event>& events);
+
   RangeBearingOptions options_;
+  FilterOptions filter_options_;
   std::optional<Resumption> from_;
+  std::optional<PlaceSearch> search_;
+  std::vector<Taken> since_;  ///< while the place is searched
+  double way_m_ = 0.0;
   RangeBearingEstimator estimator_;
   MotionEstimator motion_;
   DriveRecord record_;

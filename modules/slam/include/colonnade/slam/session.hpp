@@ -73,6 +73,7 @@ class Session {
   /// Landmarks with what the book knows of them.
   LandmarkMap map() const;
   std::size_t axisCount() const;
+  const PlaceSearch* search() const { return mapper().search(); }
 
  private:
   struct Stages;

@@ -1,0 +1,308 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "colonnade/slam/place_finder.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <compare>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <unordered_map>
+
+namespace colonnade {
+namespace {
+
+constexpr double kSamePlace_m = 0.10;
+/// Lengths of the pairs that are laid onto each other.
+constexpr double kShortest_m = 1.5, kLongest_m = 8.0;
+constexpr std::size_t kMostPairs = 150;  ///< of the small map
+constexpr std::size_t kFitted = 100;     ///< of the alignments, each elsewhere
+constexpr int kFits = 3;
+/// Where the large map has nothing within this, it cannot tell.
+constexpr double kMapped_m = 2.0;
+/// Alignments nearer than this are one.
+constexpr double kDistinct_m = 0.5;
+constexpr double kDistinct = radians(10.0);
+
+bool mayBeOne(const PlaceMark& a, const PlaceMark& b) {
+  if (a.kind != b.kind) return false;
+  if (a.identity && b.identity) return *a.identity == *b.identity;
+  return a.kind != LandmarkKind::kPillarEdge || !a.looks || !b.looks ||
+         a.looks->sameDarkSide(*b.looks);
+}
+
+/// Marks by square cells, for those near a point.
+class Cells {
+ public:
+  Cells(std::span<const PlaceMark> marks, double side_m) : marks_(marks), side_m_(side_m) {
+    for (std::size_t i = 0; i < marks.size(); ++i) cells_[keyOf(cellOf(marks[i].p))].push_back(i);
+  }
+  /// Calls visit(index, distance) for marks within `reach_m`, at most a side of a cell.
+  template <class Visit>
+  void near(const Eigen::Vector2d& p, double reach_m, Visit visit) const {
+    const Eigen::Vector2i middle = cellOf(p);
+    for (int dx = -1; dx <= 1; ++dx) {
+      for (int dy = -1; dy <= 1; ++dy) {
+        const auto cell = cells_.find(keyOf(middle + Eigen::Vector2i(dx, dy)));
+        if (cell == cells_.end()) continue;
+        for (const std::size_t i : cell->second)
+          if (const double d = (marks_[i].p - p).norm(); d <= reach_m) visit(i, d);
+      }
+    }
+  }
+
+ private:
+  Eigen::Vector2i cellOf(const Eigen::Vector2d& p) const {
+    return (p / side_m_).array().floor().cast<int>();
+  }
+  static std::int64_t keyOf(const Eigen::Vector2i& cell) {
+    return (static_cast<std::int64_t>(cell.x()) << 32) ^ static_cast<std::uint32_t>(cell.y());
+  }
+  std::span<const PlaceMark> marks_;
+  double side_m_;
+  std::unordered_map<std::int64_t, std::vector<std::size_t>> cells_;
+};
+
+struct Pair {
+  std::size_t a, b;
+  double length_m;
+};
+
+/// Pairs whose length is of use, ascending by it.
+std::vector<Pair> pairsOf(std::span<const PlaceMark> marks) {
+  std::vector<Pair> pairs;
+  for (std::size_t a = 0; a < marks.size(); ++a)
+    for (std::size_t b = a + 1; b < marks.size(); ++b)
+      if (const double length = (marks[b].p - marks[a].p).norm();
+          length >= kShortest_m && length <= kLongest_m)
+        pairs.push_back({a, b, length});
+  std::sort(pairs.begin(), pairs.end(),
+            [](const Pair& one, const Pair& other) { return one.length_m < other.length_m; });
+  return pairs;
+}
+
+/// So many of them, evenly spread over the lengths.
+std::vector<Pair> thinned(const std::vector<Pair>& pairs, std::size_t most) {
+  if (pairs.size() <= most) return pairs;
+  std::vector<Pair> some;
+  for (std::size_t i = 0; i < most; ++i) some.push_back(pairs[i * pairs.size() / most]);
+  return some;
+}
+
+Pose2 alignmentOf(const Eigen::Vector2d& from_a, const Eigen::Vector2d& from_b,
+                  const Eigen::Vector2d& to_a, const Eigen::Vector2d& to_b) {
+  const Eigen::Vector2d u = from_b - from_a, v = to_b - to_a;
+  const Pose2 turn{0.0, 0.0, std::atan2(u.x() * v.y() - u.y() * v.x(), u.dot(v))};
+  const Eigen::Vector2d t = 0.5 * (to_a + to_b) - transform(turn, 0.5 * (from_a + from_b));
+  return {t.x(), t.y(), turn.phi};
+}
+
+Eigen::Vector2d middleOf(std::span<const PlaceMark> marks) {
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+  for (const PlaceMark& mark : marks) middle += mark.p / static_cast<double>(marks.size());
+  return middle;
+}
+
+class Aligner {
+ public:
+  Aligner(std::span<const PlaceMark> map, std::span<const PlaceMark> here,
+          const PlaceOptions& options)
+      : map_(map),
+        here_(here),
+        options_(options),
+        cells_(map, std::max(kMapped_m, 2.0 * options.tolerance_m)),
+        place_of_(here.size()) {
+    for (std::size_t i = 0; i < here.size(); ++i) {
+      place_of_[i] = i;
+      for (std::size_t k = 0; k < i && place_of_[i] == i; ++k)
+        if ((here[k].p - here[i].p).norm() < kSamePlace_m) place_of_[i] = place_of_[k];
+    }
+  }
+
+  struct Alignment {
+    Pose2 T_map_here;
+    std::vector<std::pair<std::size_t, std::size_t>> pairs;
+    int fits = 0;
+    int of = 0;
+    int named = 0;  ///< of the places that fit, with the same identity
+    double rms_m = 0.0;
+  };
+
+  /// Places that have a like of theirs within `reach_m`.
+  int count(const Pose2& T_map_here, double reach_m) const {
+    std::set<std::size_t> places;
+    for (std::size_t i = 0; i < here_.size(); ++i) {
+      bool found = false;
+      cells_.near(transform(T_map_here, here_[i].p), reach_m,
+                  [&](std::size_t k, double) { found = found || mayBeOne(here_[i], map_[k]); });
+      if (found) places.insert(place_of_[i]);
+    }
+    return static_cast<int>(places.size());
+  }
+
+  /// By least squares, the reach becoming narrower.
+  Alignment fitted(Pose2 T_map_here) const {
+    std::vector<Pairing> pairs;
+    for (int fit = 0; fit < kFits; ++fit) {
+      const double wider = fit + 1 < kFits ? 2.0 : 1.0;
+      pairs = paired(T_map_here, wider * options_.tolerance_m);
+      if (pairs.size() < 2) return {};
+      T_map_here = leastSquares(pairs);
+    }
+    Alignment found{T_map_here, {}, 0, 0, 0, 0.0};
+    std::set<std::size_t> fits, of, named;
+    double sum2 = 0.0;
+    for (const Pairing& pair : pairs) {
+      found.pairs.emplace_back(pair.here, pair.map);
+      fits.insert(place_of_[pair.here]);
+      if (here_[pair.here].identity && map_[pair.map].identity) named.insert(place_of_[pair.here]);
+      sum2 += (transform(T_map_here, here_[pair.here].p) - map_[pair.map].p).squaredNorm();
+    }
+    for (std::size_t i = 0; i < here_.size(); ++i)
+      cells_.near(transform(T_map_here, here_[i].p), kMapped_m,
+                  [&](std::size_t, double) { of.insert(place_of_[i]); });
+    found.fits = static_cast<int>(fits.size());
+    found.of = static_cast<int>(of.size());
+    found.named = static_cast<int>(named.size());
+    found.rms_m = std::sqrt(sum2 / static_cast<double>(pairs.size()));
+    return found;
+  }
+
+ private:
+  struct Pairing {
+    std::size_t here, map;
+    double distance_m;
+  };
+
+  /// Each with one of the other map at most, the nearest first.
+  std::vector<Pairing> paired(const Pose2& T_map_here, double reach_m) const {
+    std::vector<Pairing> all, taken;
+    for (std::size_t i = 0; i < here_.size(); ++i)
+      cells_.near(transform(T_map_here, here_[i].p), reach_m, [&](std::size_t k, double d) {
+        if (mayBeOne(here_[i], map_[k])) all.push_back({i, k, d});
+      });
+    std::stable_sort(all.begin(), all.end(), [](const Pairing& a, const Pairing& b) {
+      return a.distance_m < b.distance_m;
+    });
+    std::set<std::size_t> used_here, used_map;
+    for (const Pairing& pair : all) {
+      if (used_here.contains(pair.here) || used_map.contains(pair.map)) continue;
+      used_here.insert(pair.here);
+      used_map.insert(pair.map);
+      taken.push_back(pair);
+    }
+    return taken;
+  }
+
+  /// Horn 1987, in the plane.
+  Pose2 leastSquares(const std::vector<Pairing>& pairs) const {
+    const auto count = static_cast<double>(pairs.size());
+    Eigen::Vector2d here = Eigen::Vector2d::Zero(), map = here;
+    for (const Pairing& pair : pairs) {
+      here += here_[pair.here].p / count;
+      map += map_[pair.map].p / count;
+    }
+    double cosine = 0.0, sine = 0.0;
+    for (const Pairing& pair : pairs) {
+      const Eigen::Vector2d a = here_[pair.here].p - here, b = map_[pair.map].p - map;
+      cosine += a.dot(b);
+      sine += a.x() * b.y() - a.y() * b.x();
+    }
+    const Pose2 turn{0.0, 0.0, std::atan2(sine, cosine)};
+    const Eigen::Vector2d t = map - transform(turn, here);
+    return {t.x(), t.y(), turn.phi};
+  }
+
+  std::span<const PlaceMark> map_, here_;
+  const PlaceOptions& options_;
+  Cells cells_;
+  std::vector<std::size_t> place_of_;  ///< of the small map: its first mark there
+};
+
+/// Which alignments are about the same: where the middle of the small map comes to lie, and how.
+struct Bin {
+  std::int64_t x, y, turn;
+  auto operator<=>(const Bin&) const = default;
+};
+Bin binOf(const Pose2& T_map_here, const Eigen::Vector2d& middle) {
+  const Eigen::Vector2d p = transform(T_map_here, middle) / kDistinct_m;
+  return {std::llround(p.x()), std::llround(p.y()), std::llround(T_map_here.phi / kDistinct)};
+}
+
+/// The best alignments of pairs with pairs, one of each bin, those with most places first.
+std::vector<Pose2> laidOnto(std::span<const PlaceMark> map, std::span<const PlaceMark> here,
+                            const Aligner& aligner, double tolerance_m) {
+  const Eigen::Vector2d middle = middleOf(here);
+  const std::vector<Pair> map_pairs = pairsOf(map);
+  struct Best {
+    int places = 0;
+    Pose2 T_map_here;
+  };
+  std::map<Bin, Best> best_of_bin;
+  for (const Pair& pair : thinned(pairsOf(here), kMostPairs)) {
+    const auto shortest =
+        std::lower_bound(map_pairs.begin(), map_pairs.end(), pair.length_m - tolerance_m,
+                         [](const Pair& one, double length_m) { return one.length_m < length_m; });
+    for (auto on = shortest; on != map_pairs.end() && on->length_m <= pair.length_m + tolerance_m;
+         ++on) {
+      for (const auto& [a, b] : {std::pair(on->a, on->b), std::pair(on->b, on->a)}) {
+        if (!mayBeOne(here[pair.a], map[a]) || !mayBeOne(here[pair.b], map[b])) continue;
+        const Pose2 T = alignmentOf(here[pair.a].p, here[pair.b].p, map[a].p, map[b].p);
+        const int places = aligner.count(T, 2.0 * tolerance_m);
+        Best& best = best_of_bin[binOf(T, middle)];
+        if (places > best.places) best = {places, T};
+      }
+    }
+  }
+  std::vector<Best> best;
+  for (const auto& [bin, alignment] : best_of_bin) best.push_back(alignment);
+  std::stable_sort(best.begin(), best.end(),
+                   [](const Best& a, const Best& b) { return a.places > b.places; });
+  if (best.size() > kFitted) best.resize(kFitted);
+  std::vector<Pose2> alignments;
+  for (const Best& one : best) alignments.push_back(one.T_map_here);
+  return alignments;
+}
+
+}  // namespace
+
+FoundPlace findPlace(std::span<const PlaceMark> map, std::span<const PlaceMark> here,
+                     const PlaceOptions& options) {
+  FoundPlace found;
+  if (here.size() < 2 || map.size() < 2) return found;
+  const Aligner aligner(map, here, options);
+  std::vector<Aligner::Alignment> alignments;
+  for (const Pose2& T : laidOnto(map, here, aligner, options.tolerance_m))
+    alignments.push_back(aligner.fitted(T));
+  if (alignments.empty()) return found;
+  std::stable_sort(alignments.begin(), alignments.end(), [](const auto& a, const auto& b) {
+    return a.fits != b.fits ? a.fits > b.fits : a.rms_m < b.rms_m;
+  });
+  const Aligner::Alignment& best = alignments.front();
+  const Eigen::Vector2d middle = middleOf(here);
+  for (const Aligner::Alignment& other : alignments) {
+    const bool same =
+        (transform(best.T_map_here, middle) - transform(other.T_map_here, middle)).norm() <
+            kDistinct_m &&
+        std::abs(wrapAngle(best.T_map_here.phi - other.T_map_here.phi)) < kDistinct;
+    if (!same) found.elsewhere = std::max(found.elsewhere, other.fits);
+  }
+  found.T_map_here = best.T_map_here;
+  found.pairs = best.pairs;
+  found.fits = best.fits;
+  found.of = best.of;
+  found.rms_m = best.rms_m;
+  const bool named = best.named == best.fits;
+  if (best.fits < (named ? options.min_named_places : options.min_places))
+    found.refusal = "too few places fit";
+  else if (best.fits < options.min_share * best.of)
+    found.refusal = "too few of the places there fit";
+  else if (found.elsewhere > options.ambiguity * best.fits)
+    found.refusal = "another place fits as well";
+  else
+    found.refusal.clear();
+  return found;
+}
+
+}  // namespace colonnade
