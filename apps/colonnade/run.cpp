@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -190,7 +191,8 @@ Pose2 startOf(const std::string& text) {
   const auto parts = fields(text, ',');
   std::vector<double> numbers;
   for (const std::string& part : parts)
-    if (const auto value = parseDouble(part)) numbers.push_back(*value);
+    if (const auto value = parseDouble(part); value && std::isfinite(*value))
+      numbers.push_back(*value);
   if (parts.size() != 3 || numbers.size() != 3)
     throw Error("--start " + text + ": give x,y,heading (m, m, degrees), or " + kAnywhere,
                 ExitCode::kUsage);

@@ -36,6 +36,29 @@ TEST_F(RangeBearingRun, MapsARealRobotFromItsReadings) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "none"));
 }
 
+TEST_F(RangeBearingRun, FindsARealRobotInAnotherOnesMap) {
+  COLONNADE_REQUIRE_RECORDING(data, "mrclam7");
+  for (const char* robot : {"2", "3"})
+    ASSERT_EQ(colonnade("import mrclam '" + data.string() + "' --robot " + robot + " -o robot" +
+                        robot + ".rawlog")
+                  .exit_code,
+              0);
+  ASSERT_EQ(colonnade("run robot3.rawlog -o map").exit_code, 0);
+  const Outcome found = colonnade(
+      "run robot2.rawlog --map map/map.colonnade --localize --start anywhere -o found "
+      "--ground-truth robot2_ground_truth.tum");
+  ASSERT_EQ(found.exit_code, 0) << found.err;
+  EXPECT_LT(summary("found")["trajectory"]["ate_rmse_m"].get<double>(), 0.2);
+  EXPECT_EQ(readLandmarksCsv(folder_ / "found/landmarks.csv").size(), 15u);
+
+  // Maps are for logs of their kind.
+  const Outcome camera =
+      colonnade("run '" + corridor().string() + "' --map map/map.colonnade -o none");
+  EXPECT_EQ(camera.exit_code, 2);
+  EXPECT_NE(camera.err.find("made from landmark readings"), std::string::npos) << camera.err;
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "none"));
+}
+
 TEST_F(RangeBearingRun, ALoopClosedLateMovesTheStartAndNotTheMap) {
   COLONNADE_REQUIRE_RECORDING(data, "mrclam7");
   ASSERT_EQ(colonnade("import mrclam '" + data.string() + "' --robot 1 -o robot1.rawlog").exit_code,

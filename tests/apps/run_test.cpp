@@ -101,6 +101,36 @@ TEST_F(Run, TwiceGivesTheSameBytes) {
   EXPECT_EQ(a, b);
 }
 
+TEST_F(Run, GoesOnInAMapFromAStartNobodyKnows) {
+  const std::string again = "run " + corridor().string() + " --map first/map.colonnade ";
+  ASSERT_EQ(0, colonnade("run " + corridor().string() + " -o first").exit_code);
+  const auto outcome = colonnade(again + "--localize --start anywhere -o found --ground-truth " +
+                                 truthOf(corridor()));
+  ASSERT_EQ(0, outcome.exit_code) << outcome.err;
+  EXPECT_NE(std::string::npos, contentOf(folder_ / "found/events.csv").find(",place found,,"));
+  EXPECT_LT(summary("found")["trajectory"]["ate_rmse_m"].get<double>(), 0.03);
+  EXPECT_LT(readTum(folder_ / "found/trajectory.tum").size(),
+            readTum(folder_ / "found/trajectory_final.tum").size());
+  EXPECT_EQ(readTum(folder_ / "found/trajectory_final.tum").size(),
+            summary("found")["frames_processed"].get<std::size_t>());
+
+  const auto nowhere =
+      colonnade(again + "--start anywhere -o nowhere --set Places.min_places=1000");
+  EXPECT_EQ(1, nowhere.exit_code);
+  EXPECT_NE(std::string::npos, nowhere.err.find("was not found (too few places fit"))
+      << nowhere.err;
+  EXPECT_TRUE(readTum(folder_ / "nowhere/trajectory.tum").empty());
+  EXPECT_FALSE(readTum(folder_ / "nowhere/trajectory_final.tum").empty());
+
+  for (const char* start : {"1,2", "1,2,x", "somewhere", "1,2,3,4", "nan,0,0"}) {
+    const auto refused = colonnade(again + "-o none --start " + start);
+    EXPECT_EQ(2, refused.exit_code) << start;
+    EXPECT_NE(std::string::npos, refused.err.find("give x,y,heading")) << refused.err;
+  }
+  EXPECT_EQ(0, colonnade(again + "--localize --start 0,0,0 -o known").exit_code);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "none"));
+}
+
 TEST_F(Run, FollowsARealCorridorAndTellsItsParts) {
   COLONNADE_REQUIRE_RECORDING(recording, "corridor_xtion");
   ASSERT_EQ(0, colonnade("import tum " + recording.string() + " -o c.rawlog").exit_code);

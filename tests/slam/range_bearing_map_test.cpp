@@ -12,10 +12,13 @@
 
 #include "colonnade/base/error.hpp"
 #include "colonnade/evaluation/trajectory_score.hpp"
+#include "colonnade/frames/mrclam_import.hpp"
+#include "colonnade/frames/rawlog_source.hpp"
 #include "colonnade/slam/mapper.hpp"
 #include "colonnade/slam/range_bearing_session.hpp"
 #include "colonnade/slam/range_bearing_slam.hpp"
 #include "ring_of_posts.hpp"
+#include "shared_data.hpp"
 #include "temporary_folder.hpp"
 
 namespace colonnade {
@@ -73,6 +76,7 @@ double rmsOfPosts(const LandmarkMap& map) {
 struct Day {
   Trajectory online, final;
   std::size_t births = 0;
+  int placed_after = -1;  ///< frames; never: -1
   LandmarkMap map;
   SavedMap saved;
   std::map<std::string, std::size_t> refused;
@@ -83,6 +87,8 @@ Day drive(RingOfPosts& source, const RangeBearingOptions& options,
   RangeBearingSession session(options, {}, {}, std::move(from));
   Day day;
   session.run(source, [&](const Frame& frame, const StepReport& report, const auto& now) {
+    if (!now.search() && day.placed_after < 0)
+      day.placed_after = static_cast<int>(day.online.size());
     day.online.push_back({frame.stamp_s, now.estimator().pose().toIsometry3()});
     for (const Event& event : report.events) day.births += event.what == "birth" ? 1 : 0;
     return true;
@@ -218,6 +224,70 @@ TEST_F(ReadingMaps, ARobotThatIsElsewhereFindsBackByKnownIdentities) {
       (session.estimator().pose().translation() - transform(world(), truth.translation())).norm(),
       0.15);
   expectSamePlaces(session.savedMap(), firstDay().saved);
+}
+
+TEST_F(ReadingMaps, ARobotAnywhereFindsWhereItIsByKnownIdentities) {
+  for (const bool localize : {true, false}) {
+    RingOfPosts source = ring(7);
+    Resumption from;
+    from.map = firstDay().saved;
+    from.localize = localize;
+    from.anywhere = PlaceOptions{};
+    const Day day = drive(source, {}, from);
+    EXPECT_LE(day.placed_after, 5);
+    EXPECT_LT(rms(day.final, source.truth, world()), 0.06);
+    EXPECT_EQ(day.map.size(), firstDay().map.size());
+    if (localize) expectSamePlaces(day.saved, firstDay().saved);
+  }
+}
+
+TEST_F(ReadingMaps, ARingOfPostsLooksTheSameFromEverywhere) {
+  RangeBearingOptions options;
+  options.use_ids = false;
+  RingOfPosts source = ring(8);
+  Resumption from;
+  from.map = firstDay().saved;
+  from.anywhere = PlaceOptions{};
+  const Day day = drive(source, options, from);
+  EXPECT_EQ(day.placed_after, -1);
+  EXPECT_GE(day.map.size(), firstDay().map.size());  // of its own
+}
+
+/// UTIAS MRCLAM data set 7: five robots among the same posts, each from a start of its own.
+TEST_F(ReadingMaps, RealRobotsFindTheirPlaceInEachOthersMaps) {
+  COLONNADE_REQUIRE_RECORDING(data, "mrclam7");
+  const auto log = [&](int robot) {
+    MrclamImportOptions import;
+    import.folder = data;
+    import.robot = robot;
+    import.log = folder_ / ("robot" + std::to_string(robot) + ".rawlog");
+    if (!std::filesystem::exists(import.log)) importMrclam(import);
+    return import.log;
+  };
+  for (const bool known : {true, false}) {
+    RangeBearingOptions options;
+    options.use_ids = known;
+    RawlogSource first(log(3));
+    RangeBearingSession maker(options, {}, {});
+    maker.run(first, [](const auto&...) { return true; });
+    Resumption from;
+    from.map = maker.savedMap();
+    from.localize = true;
+    from.anywhere = PlaceOptions{};
+    for (const int robot : {1, 5}) {
+      RawlogSource source(log(robot));
+      RangeBearingSession session(options, {}, {}, from);
+      Trajectory online;
+      session.run(source, [&](const Frame& frame, const StepReport&, const auto& now) {
+        if (!now.search()) online.push_back({frame.stamp_s, now.estimator().pose().toIsometry3()});
+        return true;
+      });
+      const Trajectory truth =
+          readTum(folder_ / ("robot" + std::to_string(robot) + "_ground_truth.tum"));
+      EXPECT_GT(online.size(), 1000u) << robot << known;
+      EXPECT_LT(evaluateTrajectory(online, truth).ate_rmse_m, 0.2) << robot << known;
+    }
+  }
 }
 
 TEST_F(ReadingMaps, MadeFromCamerasAreRefused) {

@@ -14,13 +14,15 @@ namespace colonnade {
 namespace {
 
 constexpr double kSamePlace_m = 0.10;
-/// Lengths of the pairs that are laid onto each other.
+/// Lengths of the pairs that are laid onto each other; longer ones where landmarks are sparse.
 constexpr double kShortest_m = 1.5, kLongest_m = 8.0;
 constexpr std::size_t kMostPairs = 150;  ///< of the small map
 constexpr std::size_t kFitted = 100;     ///< of the alignments, each elsewhere
 constexpr int kFits = 3;
 /// Where the large map has nothing within this, it cannot tell.
 constexpr double kMapped_m = 2.0;
+/// What lies within the tolerance by chance is 0.7 times as far off, and somewhat less once fitted.
+constexpr double kByChance = 0.5;
 /// Alignments nearer than this are one.
 constexpr double kDistinct_m = 0.5;
 constexpr double kDistinct = radians(10.0);
@@ -69,13 +71,23 @@ struct Pair {
   double length_m;
 };
 
+/// Half of the pairs of the small map are shorter than this, or all.
+double longestOf(std::span<const PlaceMark> here) {
+  std::vector<double> lengths{kLongest_m};
+  for (std::size_t a = 0; a < here.size(); ++a)
+    for (std::size_t b = 0; b < a; ++b) lengths.push_back((here[a].p - here[b].p).norm());
+  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+  std::nth_element(lengths.begin(), middle, lengths.end());
+  return std::max(kLongest_m, *middle);
+}
+
 /// Pairs whose length is of use, ascending by it.
-std::vector<Pair> pairsOf(std::span<const PlaceMark> marks) {
+std::vector<Pair> pairsOf(std::span<const PlaceMark> marks, double longest_m) {
   std::vector<Pair> pairs;
   for (std::size_t a = 0; a < marks.size(); ++a)
     for (std::size_t b = a + 1; b < marks.size(); ++b)
       if (const double length = (marks[b].p - marks[a].p).norm();
-          length >= kShortest_m && length <= kLongest_m)
+          length >= kShortest_m && length <= longest_m)
         pairs.push_back({a, b, length});
   std::sort(pairs.begin(), pairs.end(),
             [](const Pair& one, const Pair& other) { return one.length_m < other.length_m; });
@@ -111,7 +123,8 @@ class Aligner {
       : map_(map),
         here_(here),
         options_(options),
-        cells_(map, std::max(kMapped_m, 2.0 * options.tolerance_m)),
+        near_(map, 2.0 * options.tolerance_m),
+        around_(map, kMapped_m),
         place_of_(here.size()) {
     for (std::size_t i = 0; i < here.size(); ++i) {
       place_of_[i] = i;
@@ -129,16 +142,15 @@ class Aligner {
     double rms_m = 0.0;
   };
 
-  /// Places that have a like of theirs within `reach_m`.
-  int count(const Pose2& T_map_here, double reach_m) const {
-    std::set<std::size_t> places;
-    for (std::size_t i = 0; i < here_.size(); ++i) {
-      bool found = false;
-      cells_.near(transform(T_map_here, here_[i].p), reach_m,
-                  [&](std::size_t k, double) { found = found || mayBeOne(here_[i], map_[k]); });
-      if (found) places.insert(place_of_[i]);
-    }
-    return static_cast<int>(places.size());
+  /// Places that have a like of theirs within twice the tolerance.
+  int count(const Pose2& T_map_here) const {
+    std::vector<bool> fits(here_.size(), false);
+    for (std::size_t i = 0; i < here_.size(); ++i)
+      near_.near(transform(T_map_here, here_[i].p), 2.0 * options_.tolerance_m,
+                 [&](std::size_t k, double) {
+                   if (mayBeOne(here_[i], map_[k])) fits[place_of_[i]] = true;
+                 });
+    return static_cast<int>(std::count(fits.begin(), fits.end(), true));
   }
 
   /// By least squares, the reach becoming narrower.
@@ -160,8 +172,8 @@ class Aligner {
       sum2 += (transform(T_map_here, here_[pair.here].p) - map_[pair.map].p).squaredNorm();
     }
     for (std::size_t i = 0; i < here_.size(); ++i)
-      cells_.near(transform(T_map_here, here_[i].p), kMapped_m,
-                  [&](std::size_t, double) { of.insert(place_of_[i]); });
+      around_.near(transform(T_map_here, here_[i].p), kMapped_m,
+                   [&](std::size_t, double) { of.insert(place_of_[i]); });
     found.fits = static_cast<int>(fits.size());
     found.of = static_cast<int>(of.size());
     found.named = static_cast<int>(named.size());
@@ -179,7 +191,7 @@ class Aligner {
   std::vector<Pairing> paired(const Pose2& T_map_here, double reach_m) const {
     std::vector<Pairing> all, taken;
     for (std::size_t i = 0; i < here_.size(); ++i)
-      cells_.near(transform(T_map_here, here_[i].p), reach_m, [&](std::size_t k, double d) {
+      near_.near(transform(T_map_here, here_[i].p), reach_m, [&](std::size_t k, double d) {
         if (mayBeOne(here_[i], map_[k])) all.push_back({i, k, d});
       });
     std::stable_sort(all.begin(), all.end(), [](const Pairing& a, const Pairing& b) {
@@ -216,7 +228,7 @@ class Aligner {
 
   std::span<const PlaceMark> map_, here_;
   const PlaceOptions& options_;
-  Cells cells_;
+  Cells near_, around_;
   std::vector<std::size_t> place_of_;  ///< of the small map: its first mark there
 };
 
@@ -234,13 +246,14 @@ Bin binOf(const Pose2& T_map_here, const Eigen::Vector2d& middle) {
 std::vector<Pose2> laidOnto(std::span<const PlaceMark> map, std::span<const PlaceMark> here,
                             const Aligner& aligner, double tolerance_m) {
   const Eigen::Vector2d middle = middleOf(here);
-  const std::vector<Pair> map_pairs = pairsOf(map);
+  const double longest_m = longestOf(here);
+  const std::vector<Pair> map_pairs = pairsOf(map, longest_m + tolerance_m);
   struct Best {
     int places = 0;
     Pose2 T_map_here;
   };
   std::map<Bin, Best> best_of_bin;
-  for (const Pair& pair : thinned(pairsOf(here), kMostPairs)) {
+  for (const Pair& pair : thinned(pairsOf(here, longest_m), kMostPairs)) {
     const auto shortest =
         std::lower_bound(map_pairs.begin(), map_pairs.end(), pair.length_m - tolerance_m,
                          [](const Pair& one, double length_m) { return one.length_m < length_m; });
@@ -249,7 +262,7 @@ std::vector<Pose2> laidOnto(std::span<const PlaceMark> map, std::span<const Plac
       for (const auto& [a, b] : {std::pair(on->a, on->b), std::pair(on->b, on->a)}) {
         if (!mayBeOne(here[pair.a], map[a]) || !mayBeOne(here[pair.b], map[b])) continue;
         const Pose2 T = alignmentOf(here[pair.a].p, here[pair.b].p, map[a].p, map[b].p);
-        const int places = aligner.count(T, 2.0 * tolerance_m);
+        const int places = aligner.count(T);
         Best& best = best_of_bin[binOf(T, middle)];
         if (places > best.places) best = {places, T};
       }
@@ -298,6 +311,8 @@ FoundPlace findPlace(std::span<const PlaceMark> map, std::span<const PlaceMark> 
     found.refusal = "too few places fit";
   else if (best.fits < options.min_share * best.of)
     found.refusal = "too few of the places there fit";
+  else if (!named && best.rms_m > kByChance * options.tolerance_m)
+    found.refusal = "they fit no better than by chance";
   else if (found.elsewhere > options.ambiguity * best.fits)
     found.refusal = "another place fits as well";
   else

@@ -12,6 +12,8 @@
 namespace colonnade {
 namespace {
 
+/// So many times the landmarks of the last look make a new one worth it, on the spot, too.
+constexpr double kMore = 1.2;
 /// Two looks in a row tell the same where the start is within this.
 constexpr double kSameStart_m = 0.5;
 constexpr double kSameHeading = radians(5.0);
@@ -54,7 +56,8 @@ PlaceSearch::PlaceSearch(Resumption anywhere)
 
 std::optional<Resumption> PlaceSearch::look(const std::vector<PlaceMark>& here, const State& own,
                                             double way_m) {
-  if (here.size() <= looked_at_ && way_m - looked_m_ < options().try_every_m) return std::nullopt;
+  const bool more = static_cast<double>(here.size()) > kMore * static_cast<double>(looked_at_);
+  if (!more && way_m - looked_m_ < options().try_every_m) return std::nullopt;
   looked_m_ = way_m;
   looked_at_ = here.size();
   const FoundPlace former = std::exchange(last_, findPlace(map_, here, options()));

@@ -21,9 +21,9 @@ namespace colonnade {
 struct PlaceOptions {
   static constexpr const char* kSection = "Places";
   double tolerance_m = 0.15;
-  int min_places = 6;
+  int min_places = 7;
   int min_named_places = 3;
-  double min_share = 0.6;
+  double min_share = 0.75;
   double ambiguity = 0.7;
   int confirmations = 2;
   double recent_m = 20.0;
@@ -65,8 +65,8 @@ struct FoundPlace {
 };
 
 /// Lays a map just begun onto a known one: pairs of its landmarks are laid onto pairs of the same
-/// length, kinds and looks (geometric alignment as in pose clustering: Olson, CVGIP: Image
-/// Understanding 59(1), 1994), the best of these are fitted by least squares, and the one with most
+/// length, kinds and looks (pose clustering: Stockman, Computer Vision, Graphics, and Image
+/// Processing 40(3), 1987), the best of these are fitted by least squares, and the one with most
 /// places is taken if nothing else comes near it. A place is what lies within 10 cm.
 FoundPlace findPlace(std::span<const PlaceMark> map, std::span<const PlaceMark> here,
                      const PlaceOptions& options);
