@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // One step of RangeBearingSlam beside one of MRPT's CRangeBearingKFSLAM2D on the same data:
-//   range_bearing_speed [--full] [--hidden] [--ours] STEPS N...
+//   range_bearing_speed [--full] [--hidden] [--ours] [--localize] STEPS N...
+// --localize: in the map of the births, saved, loaded and left as it is; nothing of MRPT's.
 // --full: no landmark ever rests. --hidden: the readings of the steps measured bear no identity.
 // --ours: nothing of MRPT beside it; --hidden means that too.
 // Fixed density (one landmark on 6 square metres). The map is born before the robot starts, forty
@@ -15,12 +16,14 @@
 #include <mrpt/poses/CPosePDFGaussian.h>
 #include <mrpt/slam/CRangeBearingKFSLAM2D.h>
 #include <mrpt/system/COutputLogger.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
+#include <filesystem>
 #include <random>
 #include <string_view>
 #include <vector>
@@ -158,7 +161,19 @@ struct Flags {
   bool full = false;
   bool hidden = false;
   bool ours = false;
+  bool localize = false;
 };
+
+/// Goes on in the map so far, which stays as it is.
+void localizeIn(colonnade::RangeBearingSlam& slam) {
+  const auto map = std::filesystem::temp_directory_path() /
+                   ("range_bearing_speed_" + std::to_string(getpid()) + ".colonnade");
+  slam.saveMap(map);
+  colonnade::MapStart start;
+  start.localize = true;
+  slam.loadMap(map, start);
+  std::filesystem::remove(map);
+}
 
 void run(int landmarks, int steps, const Flags& flags) {
   colonnade::RangeBearingSlam ours;
@@ -166,7 +181,8 @@ void run(int landmarks, int steps, const Flags& flags) {
   ours.options.std_sensor_range = kRangeSigma_m;
   ours.options.std_sensor_yaw = kBearingSigma;
   ours.reset();
-  const bool with_mrpt = landmarks <= kLargestForMrpt && !flags.ours && !flags.hidden;
+  const bool with_mrpt =
+      landmarks <= kLargestForMrpt && !flags.ours && !flags.hidden && !flags.localize;
   CRangeBearingKFSLAM2D naive, davison;
   for (auto* mrpt : {&naive, &davison}) {
     mrpt->setMinLoggingLevel(mrpt::system::LVL_ERROR);
@@ -183,6 +199,7 @@ void run(int landmarks, int steps, const Flags& flags) {
   for (int i = 0; i <= births + steps; ++i) {
     Step step = field.next();
     measure(ours, step, i <= births ? nullptr : &ours_times);
+    if (flags.localize && i + 1 == births) localizeIn(ours);
     if (!with_mrpt) continue;
     measure(naive, step, i <= births ? nullptr : &naive_times);
     measure(davison, step, i <= births ? nullptr : &davison_times);
@@ -204,10 +221,12 @@ int main(int argc, char** argv) {
     flags.full |= flag == "--full";
     flags.hidden |= flag == "--hidden";
     flags.ours |= flag == "--ours";
-    unknown |= flag != "--full" && flag != "--hidden" && flag != "--ours";
+    flags.localize |= flag == "--localize";
+    unknown |= flag != "--full" && flag != "--hidden" && flag != "--ours" && flag != "--localize";
   }
   if (argc < 3 || unknown) {
-    std::fprintf(stderr, "range_bearing_speed [--full] [--hidden] [--ours] STEPS N...\n");
+    std::fprintf(stderr,
+                 "range_bearing_speed [--full] [--hidden] [--ours] [--localize] STEPS N...\n");
     return 2;
   }
   std::printf("landmarks  filter              mean ms   worst ms    ratio\n");

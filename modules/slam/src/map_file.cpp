@@ -54,19 +54,21 @@ class Reader {
 
   void expect(const std::string& key) {
     const std::size_t end = std::min(text_.find('\n', at_), text_.size());
-    words_ = words(text_.substr(at_, end - at_));
+    rest_ = text_.substr(at_, end - at_);
     at_ = std::min(end + 1, text_.size());
     ++line_;
-    next_ = 1;
-    if (words_.empty() || words_[0] != key) fail("'" + key + "' expected");
+    if (rest_.empty() || word() != key) fail("'" + key + "' expected");
   }
-  std::string word() {
-    if (next_ >= words_.size()) fail("the line is too short");
-    return words_[next_++];
+  std::string_view word() {
+    if (rest_.empty()) fail("the line is too short");
+    const std::string_view word = rest_.substr(0, rest_.find(' '));
+    rest_.remove_prefix(std::min(word.size() + 1, rest_.size()));
+    return word;
   }
   double number() {
-    const auto value = parseDouble(word());
-    if (!value) fail("no number: " + words_[next_ - 1]);
+    const std::string_view text = word();
+    const auto value = parseDouble(text);
+    if (!value) fail("no number: " + std::string(text));
     return *value;
   }
   int integer(int low = -2000000000, int high = 2000000000) {
@@ -76,9 +78,9 @@ class Reader {
   }
   LandmarkId id() { return LandmarkId{integer(0)}; }
   SavedMap::Source source() {
-    const std::string name = word();
+    const std::string_view name = word();
     const auto* const found = std::find(std::begin(kSources), std::end(kSources), name);
-    if (found == std::end(kSources)) fail("maps are made from camera or readings, not " + name);
+    if (found == std::end(kSources)) fail("maps are made from camera or readings, not " + std::string(name));
     return static_cast<SavedMap::Source>(found - std::begin(kSources));
   }
   [[noreturn]] void fail(const std::string& what) const {
@@ -90,8 +92,7 @@ class Reader {
   std::string where_;
   std::size_t at_ = 0;
   std::size_t line_ = 0;
-  std::vector<std::string> words_;
-  std::size_t next_ = 0;
+  std::string_view rest_;  ///< of the line
 };
 
 std::string blockLine(const State& state, const Block& block) {

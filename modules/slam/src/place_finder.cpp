@@ -23,6 +23,7 @@ constexpr int kFits = 3;
 constexpr double kMapped_m = 2.0;
 /// What lies within the tolerance by chance is 0.7 times as far off, and somewhat less once fitted.
 constexpr double kByChance = 0.5;
+constexpr int kMany = 2;  ///< times the fewest places fit by no chance
 /// Alignments nearer than this are one.
 constexpr double kDistinct_m = 0.5;
 constexpr double kDistinct = radians(10.0);
@@ -311,7 +312,8 @@ FoundPlace findPlace(std::span<const PlaceMark> map, std::span<const PlaceMark> 
     found.refusal = "too few places fit";
   else if (best.fits < options.min_share * best.of)
     found.refusal = "too few of the places there fit";
-  else if (!named && best.rms_m > kByChance * options.tolerance_m)
+  else if (!named && best.fits < kMany * options.min_places &&
+           best.rms_m > kByChance * options.tolerance_m)
     found.refusal = "they fit no better than by chance";
   else if (found.elsewhere > options.ambiguity * best.fits)
     found.refusal = "another place fits as well";
