@@ -152,11 +152,13 @@ ExitCode conclude(const RunArguments& arguments, const RunSummary& summary,
     say("interrupted after " + std::to_string(summary.frames_processed) + " frames");
     return ExitCode::kInterrupted;
   }
-  if (search)
-    say("the place in " + arguments.map.string() + " was not found (" + search->last().refusal +
-        ": " + std::to_string(search->last().fits) + " of " + std::to_string(search->last().of) +
-        " places, elsewhere " + std::to_string(search->last().elsewhere) +
+  if (search) {
+    const FoundPlace& last = search->last();
+    say("the place in " + arguments.map.string() + " was not found (" + last.refusal + ": " +
+        std::to_string(last.fits) + " of " + std::to_string(last.of) + " places, evidence " +
+        formatFixed(last.evidence, 1) + ", elsewhere " + formatFixed(last.elsewhere, 1) +
         "); the results are a map of its own");
+  }
   if (!not_scored.empty() || search) return ExitCode::kFailed;
   return summary.damage.any() ? ExitCode::kLossy : ExitCode::kDone;
 }

@@ -21,9 +21,9 @@ constexpr std::size_t kFitted = 100;     ///< of the alignments, each elsewhere
 constexpr int kFits = 3;
 /// Where the large map has nothing within this, it cannot tell.
 constexpr double kMapped_m = 2.0;
-/// What lies within the tolerance by chance is 0.7 times as far off, and somewhat less once fitted.
-constexpr double kByChance = 0.5;
-constexpr int kMany = 2;  ///< times the fewest places fit by no chance
+/// A landmark has a like of its own within the tolerance by chance this often, or a namesake.
+constexpr double kChance = 0.2, kChanceOfNamesake = 0.02;
+constexpr double kLeastRms_m = 0.01;  ///< nothing fits better, but by chance
 /// Alignments nearer than this are one.
 constexpr double kDistinct_m = 0.5;
 constexpr double kDistinct = radians(10.0);
@@ -141,6 +141,7 @@ class Aligner {
     int of = 0;
     int named = 0;  ///< of the places that fit, with the same identity
     double rms_m = 0.0;
+    double evidence = 0.0;
   };
 
   /// Places that have a like of theirs within twice the tolerance.
@@ -163,7 +164,7 @@ class Aligner {
       if (pairs.size() < 2) return {};
       T_map_here = leastSquares(pairs);
     }
-    Alignment found{T_map_here, {}, 0, 0, 0, 0.0};
+    Alignment found{T_map_here, {}, 0, 0, 0, 0.0, 0.0};
     std::set<std::size_t> fits, of, named;
     double sum2 = 0.0;
     for (const Pairing& pair : pairs) {
@@ -179,7 +180,17 @@ class Aligner {
     found.of = static_cast<int>(of.size());
     found.named = static_cast<int>(named.size());
     found.rms_m = std::sqrt(sum2 / static_cast<double>(pairs.size()));
+    found.evidence = evidenceOf(found);
     return found;
+  }
+
+  /// How unlikely chance does as well, as a natural logarithm: so many places have a like of theirs
+  /// within the tolerance, and these, but for the three numbers that were fitted, lie so near.
+  double evidenceOf(const Alignment& a) const {
+    const double by_chance =
+        (a.fits - a.named) * std::log(kChance) + a.named * std::log(kChanceOfNamesake);
+    const double nearer = options_.tolerance_m / std::max(a.rms_m, kLeastRms_m);
+    return std::max(0, 2 * a.fits - 3) * std::log(nearer) - by_chance;
   }
 
  private:
@@ -290,9 +301,8 @@ FoundPlace findPlace(std::span<const PlaceMark> map, std::span<const PlaceMark> 
   for (const Pose2& T : laidOnto(map, here, aligner, options.tolerance_m))
     alignments.push_back(aligner.fitted(T));
   if (alignments.empty()) return found;
-  std::stable_sort(alignments.begin(), alignments.end(), [](const auto& a, const auto& b) {
-    return a.fits != b.fits ? a.fits > b.fits : a.rms_m < b.rms_m;
-  });
+  std::stable_sort(alignments.begin(), alignments.end(),
+                   [](const auto& a, const auto& b) { return a.evidence > b.evidence; });
   const Aligner::Alignment& best = alignments.front();
   const Eigen::Vector2d middle = middleOf(here);
   for (const Aligner::Alignment& other : alignments) {
@@ -300,22 +310,22 @@ FoundPlace findPlace(std::span<const PlaceMark> map, std::span<const PlaceMark> 
         (transform(best.T_map_here, middle) - transform(other.T_map_here, middle)).norm() <
             kDistinct_m &&
         std::abs(wrapAngle(best.T_map_here.phi - other.T_map_here.phi)) < kDistinct;
-    if (!same) found.elsewhere = std::max(found.elsewhere, other.fits);
+    if (!same) found.elsewhere = std::max(found.elsewhere, other.evidence);
   }
   found.T_map_here = best.T_map_here;
   found.pairs = best.pairs;
   found.fits = best.fits;
   found.of = best.of;
   found.rms_m = best.rms_m;
+  found.evidence = best.evidence;
   const bool named = best.named == best.fits;
   if (best.fits < (named ? options.min_named_places : options.min_places))
     found.refusal = "too few places fit";
   else if (best.fits < options.min_share * best.of)
     found.refusal = "too few of the places there fit";
-  else if (!named && best.fits < kMany * options.min_places &&
-           best.rms_m > kByChance * options.tolerance_m)
-    found.refusal = "they fit no better than by chance";
-  else if (found.elsewhere > options.ambiguity * best.fits)
+  else if (!named && best.evidence < options.min_evidence)
+    found.refusal = "they may fit by chance";
+  else if (found.elsewhere > options.ambiguity * best.evidence)
     found.refusal = "another place fits as well";
   else
     found.refusal.clear();

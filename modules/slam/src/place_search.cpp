@@ -113,8 +113,9 @@ Resumption PlaceSearch::startIn(const std::vector<PlaceMark>& here, const State&
 Event PlaceSearch::found(double stamp_s, std::size_t frame) const {
   return {stamp_s, frame, "place found", std::nullopt,
           std::to_string(last_.fits) + " of " + std::to_string(last_.of) + " places fit to " +
-              formatFixed(last_.rms_m, 3) + " m; elsewhere at most " +
-              std::to_string(last_.elsewhere) + "; the drive is mapped again from its start"};
+              formatFixed(last_.rms_m, 3) + " m; evidence " + formatFixed(last_.evidence, 1) +
+              ", elsewhere " + formatFixed(last_.elsewhere, 1) +
+              "; the drive is mapped again from its start"};
 }
 
 }  // namespace colonnade
