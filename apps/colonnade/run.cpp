@@ -115,7 +115,7 @@ Trajectory finalTrajectory(const Session& session) {
   return trajectory;
 }
 Trajectory finalTrajectory(const RangeBearingSession& session) {
-  return session.smoothed() ? session.smoothed()->trajectory : Trajectory{};
+  return session.smoothed() ? session.smoothed()->trajectory : session.trajectory();
 }
 
 /// What a later run needs to go on from this map.
@@ -148,10 +148,6 @@ ExitCode conclude(const RunArguments& arguments, const RunSummary& summary,
   for (const auto& [reason, count] : summary.damage.skipped)
     say(std::to_string(count) + " skipped: " + reason);
   if (!not_scored.empty()) say("not scored: " + not_scored);
-  if (summary.interrupted) {
-    say("interrupted after " + std::to_string(summary.frames_processed) + " frames");
-    return ExitCode::kInterrupted;
-  }
   if (search) {
     const FoundPlace& last = search->last();
     say("the place in " + arguments.map.string() + " was not found (" + last.refusal + ": " +
@@ -159,12 +155,16 @@ ExitCode conclude(const RunArguments& arguments, const RunSummary& summary,
         formatFixed(last.evidence, 1) + ", elsewhere " + formatFixed(last.elsewhere, 1) +
         "); the results are a map of its own");
   }
+  if (summary.interrupted) {
+    say("interrupted after " + std::to_string(summary.frames_processed) + " frames");
+    return ExitCode::kInterrupted;
+  }
   if (!not_scored.empty() || search) return ExitCode::kFailed;
   return summary.damage.any() ? ExitCode::kLossy : ExitCode::kDone;
 }
 
 std::vector<std::string> notesOf(const Session& session) { return session.imageStage().notes(); }
-std::vector<std::string> notesOf(const RangeBearingSession&) { return {}; }
+std::vector<std::string> notesOf(const RangeBearingSession& session) { return session.notes(); }
 
 /// In the world of map().
 Pose2 poseOf(const Session& session) { return session.filter().pose(); }

@@ -18,6 +18,9 @@ void RunRecorder::add(const Frame& frame, const StepReport& report,
     trajectory_.push_back(pose);
     covariances_.push_back({frame.stamp_s, covariance});
   }
+  if (!T_world_robot) path_length_m_ += report.motion.T_previous_robot.translation().norm();
+  if (times_.empty()) first_stamp_s_ = frame.stamp_s;
+  last_stamp_s_ = frame.stamp_s;
   times_.push_back(report.times_ms);
   events_.insert(events_.end(), report.events.begin(), report.events.end());
   const Detections& detections = report.detections;
@@ -42,8 +45,6 @@ void RunRecorder::write(const std::filesystem::path& folder, const Trajectory& f
   writeFileAtomically(folder / "events.csv", text);
 }
 
-double RunRecorder::duration() const {
-  return trajectory_.empty() ? 0.0 : trajectory_.back().stamp_s - trajectory_.front().stamp_s;
-}
+double RunRecorder::duration() const { return last_stamp_s_ - first_stamp_s_; }
 
 }  // namespace colonnade

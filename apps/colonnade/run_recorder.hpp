@@ -42,6 +42,7 @@ class RunRecorder {
   std::vector<StageTimes> times_;
   std::map<std::string, std::size_t> motion_sources_;
   double path_length_m_ = 0.0;
+  double first_stamp_s_ = 0.0, last_stamp_s_ = 0.0;
 };
 
 }  // namespace colonnade

@@ -4,6 +4,9 @@
 
 #include <cmath>
 #include <fstream>
+#include <iomanip>
+#include <random>
+#include <sstream>
 
 #include "colonnade/base/error.hpp"
 #include "colonnade/simulation/world_file.hpp"
@@ -266,6 +269,49 @@ TEST_F(SavedMaps, DamagedOrForeignOnesAreRefused) {
   flipped[flipped.size() / 3] ^= 1;
   expectRefusal(flipped, "damaged");
   EXPECT_THROW(MapFile::read(folder_.path() / "none"), Error);
+}
+
+/// With the checksum of what it holds now.
+std::string sealedAgain(std::string text) {
+  text.resize(text.rfind("checksum "));
+  std::uint64_t hash = 14695981039346656037ull;
+  for (const char c : text) {
+    hash ^= static_cast<unsigned char>(c);
+    hash *= 1099511628211ull;
+  }
+  std::ostringstream digits;
+  digits << std::hex << std::setw(16) << std::setfill('0') << hash;
+  return text + "checksum " + digits.str() + "\n";
+}
+
+TEST_F(SavedMaps, WrittenBySomebodyElseAreRefusedOrSound) {
+  ASSERT_TRUE(sealedAgain(text()) == text());
+  std::mt19937 random(5);
+  int refused = 0;
+  for (int trial = 0; trial < 150; ++trial) {
+    std::string other = text();
+    for (int change = 0; change < 3; ++change)
+      other[random() % (other.size() - 40)] = "0123456789 .-en\n"[random() % 16];
+    try {
+      const SavedMap map = MapFile::read(write(sealedAgain(other)));
+      EXPECT_TRUE(map.state.x.allFinite() && map.state.P.allFinite());
+      EXPECT_TRUE(map.T_world_start.vector().allFinite());
+      const Eigen::VectorXd sigma = map.state.P.diagonal().cwiseSqrt();
+      EXPECT_TRUE(
+          (map.state.P.cwiseAbs().array() <= 1.00001 * (sigma * sigma.transpose()).array() + 1e-9)
+              .all());
+    } catch (const Error&) {
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, 10);
+  std::string start = text();
+  start.replace(start.find("start 0"), 7, "start nan");
+  expectRefusal(sealedAgain(start), "no number");
+  std::string many = text();
+  const auto count = many.find("blocks ") + 7;
+  many.replace(count, many.find('\n', count) - count, "2000000000");
+  expectRefusal(sealedAgain(many), "damaged");
 }
 
 TEST_F(SavedMaps, ServeToLocaliseWithoutChanging) {

@@ -186,6 +186,7 @@ TEST_F(ReadingMaps, GrowBetterAndNotLarger) {
     EXPECT_EQ(day.map.size(), firstDay().map.size());
     EXPECT_EQ(day.births, 0u);
     EXPECT_LT(rms(day.final, source.truth, world()), 0.06) << seed;
+    EXPECT_EQ(day.saved.T_world_start.vector(), firstDay().saved.T_world_start.vector());
     before += rmsOfPosts(firstDay().map);
     after += rmsOfPosts(day.map);
     for (std::size_t i = 0; i < day.map.size(); ++i)
@@ -241,6 +242,45 @@ TEST_F(ReadingMaps, ARobotAnywhereFindsWhereItIsByKnownIdentities) {
   }
 }
 
+TEST_F(ReadingMaps, ARobotAnywhereMayWaitForItsFirstLandmark) {
+  for (const bool wait : {false, true}) {
+    RangeBearingOptions options;
+    options.wait_for_landmark = wait;
+    RingOfPosts source = ring(7);
+    source.blind = 15;
+    Resumption from;
+    from.map = firstDay().saved;
+    from.localize = true;
+    from.anywhere = PlaceOptions{};
+    const Day day = drive(source, options, from);
+    ASSERT_GT(day.placed_after, 14);
+    const auto at = static_cast<std::size_t>(day.placed_after);
+    const Eigen::Vector2d p = day.online[at].T_world_body.translation().head<2>();
+    const Eigen::Vector2d truth = source.truth[at].T_world_body.translation().head<2>();
+    EXPECT_LT((p - transform(world(), truth)).norm(), 0.15) << wait;
+    EXPECT_EQ(day.final.size(), source.truth.size());
+  }
+}
+
+TEST_F(ReadingMaps, AWrongStartIsSaid) {
+  RangeBearingOptions options;
+  options.use_ids = false;
+  RingOfPosts source = ring(9, 20, 100);
+  Resumption from;
+  from.map = firstDay().saved;
+  from.localize = true;
+  from.T_world_robot = {40.0, 40.0, 1.0};
+  RangeBearingSession session(options, {}, {}, from);
+  session.run(source, [](const auto&...) { return true; });
+  ASSERT_FALSE(session.notes().empty());
+  EXPECT_NE(session.notes().front().find("is the start right"), std::string::npos);
+
+  RingOfPosts right = ring(9);
+  RangeBearingSession known({}, {}, {}, resumption(true));
+  known.run(right, [](const auto&...) { return true; });
+  EXPECT_TRUE(known.notes().empty());
+}
+
 TEST_F(ReadingMaps, ARingOfPostsLooksTheSameFromEverywhere) {
   RangeBearingOptions options;
   options.use_ids = false;
@@ -294,6 +334,9 @@ TEST_F(ReadingMaps, MadeFromCamerasAreRefused) {
   Resumption from;
   from.map = Mapper({}).savedMap();
   EXPECT_THROW(RangeBearingEstimator({}, {}, from), Error);
+  from.map = firstDay().saved;
+  from.anywhere = PlaceOptions{};
+  EXPECT_THROW(RangeBearingEstimator({}, {}, from), Error);  // a session finds it
 }
 
 TEST_F(ReadingMaps, AreSavedAndLoadedByTheFaceOfMrptsFilter) {

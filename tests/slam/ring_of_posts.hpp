@@ -34,7 +34,7 @@ class RingOfPosts : public FrameSource {
     for (int i = 0; i < kPosts; ++i) {
       const Eigen::Vector2d p = transform(T_world_robot_.inverse(), post(i + 1));
       const double bearing = std::atan2(p.y(), p.x());
-      if (p.norm() > reach_m_ || std::abs(bearing) > half_angle_) continue;
+      if (truth.size() < blind || p.norm() > reach_m_ || std::abs(bearing) > half_angle_) continue;
       frame.range_bearing->readings.push_back(
           {i + 1, p.norm() + gauss(0.05), bearing + gauss(radians(1.0)), 0.0, {}});
     }
@@ -60,6 +60,7 @@ class RingOfPosts : public FrameSource {
   static constexpr std::size_t kSteps = 120;  ///< of a round
   static constexpr int kPosts = 24;
   Trajectory truth;
+  std::size_t blind = 0;  ///< frames at the start that show nothing
 
  private:
   static constexpr Pose2 kWay{0.2, 0.0, 2.0 * kPi / kSteps};

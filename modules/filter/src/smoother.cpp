@@ -108,7 +108,8 @@ Drive withoutSightings(const Drive& drive, std::size_t first, std::size_t last) 
                       drive.T_world_robot[first].inverse();
   for (std::size_t k = first; k < last; ++k)
     other.T_world_robot[k] = shift * drive.T_world_robot[k];
-  std::vector<bool> elsewhere(drive.points_world.size(), false);
+  std::vector<bool> elsewhere(drive.points_world.size(), false);  // or known beforehand
+  if (drive.prior) std::fill_n(elsewhere.begin(), drive.prior->points_world.size(), true);
   for (Drive::Sighting& sighting : other.sightings) {
     const bool within = sighting.pose >= first && sighting.pose < last;
     elsewhere[sighting.point] = elsewhere[sighting.point] || (!within && sighting.used);

@@ -26,14 +26,17 @@ constexpr double kSameStamp_s = 1e-5;  ///< stamps that went through a TUM file 
 constexpr std::size_t kFewestBeams = 5;
 
 /// Moves the key frames to where the trajectory has them at the same stamp.
+/// To where the trajectory has them; those it does not have go.
 void moveTo(const Trajectory& trajectory, std::vector<KeyFrame>& key_frames) {
-  for (auto& key_frame : key_frames) {
+  if (trajectory.empty()) return;
+  std::erase_if(key_frames, [&](KeyFrame& key_frame) {
     const auto found = std::lower_bound(
         trajectory.begin(), trajectory.end(), key_frame.stamp_s - kSameStamp_s,
         [](const StampedPose& pose, double stamp) { return pose.stamp_s < stamp; });
-    if (found != trajectory.end() && found->stamp_s <= key_frame.stamp_s + kSameStamp_s)
-      key_frame.T_world_robot = planarPart(found->T_world_body);
-  }
+    if (found == trajectory.end() || found->stamp_s > key_frame.stamp_s + kSameStamp_s) return true;
+    key_frame.T_world_robot = planarPart(found->T_world_body);
+    return false;
+  });
 }
 
 mrpt::maps::CSimpleMap toSimpleMap(const std::vector<KeyFrame>& key_frames) {

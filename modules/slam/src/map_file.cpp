@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <fstream>
 #include <iterator>
+#include <set>
 
 #include "colonnade/base/error.hpp"
 #include "colonnade/base/text.hpp"
@@ -16,6 +17,7 @@ namespace {
 
 constexpr const char* kMagic = "colonnade-map";
 constexpr const char* kVersion = "4";
+constexpr double kFarthest_m = 1e6;
 constexpr const char* kSources[] = {"camera", "readings"};
 
 /// FNV-1a, 64 bits (Fowler, Noll, Vo; RFC 9923): finds damage, not malice.
@@ -68,7 +70,7 @@ class Reader {
   double number() {
     const std::string_view text = word();
     const auto value = parseDouble(text);
-    if (!value) fail("no number: " + std::string(text));
+    if (!value || !std::isfinite(*value)) fail("no number: " + std::string(text));
     return *value;
   }
   int integer(int low = -2000000000, int high = 2000000000) {
@@ -80,7 +82,8 @@ class Reader {
   SavedMap::Source source() {
     const std::string_view name = word();
     const auto* const found = std::find(std::begin(kSources), std::end(kSources), name);
-    if (found == std::end(kSources)) fail("maps are made from camera or readings, not " + std::string(name));
+    if (found == std::end(kSources))
+      fail("maps are made from camera or readings, not " + std::string(name));
     return static_cast<SavedMap::Source>(found - std::begin(kSources));
   }
   [[noreturn]] void fail(const std::string& what) const {
@@ -124,6 +127,15 @@ void readBlock(Reader& reader, State& state) {
   state.x.conservativeResize(block.offset + block.size());
   for (int i = 0; i < block.size(); ++i) state.x(block.offset + i) = reader.number();
   state.blocks.push_back(block);
+}
+
+/// No correlation beyond one, but for rounding.
+bool isCovariance(const Eigen::MatrixXd& P) {
+  const Eigen::ArrayXd sigma = P.diagonal().array().sqrt();
+  for (Eigen::Index column = 0; column < P.cols(); ++column)
+    if (!(P.col(column).array().abs() <= (1.0 + 1e-6) * sigma(column) * sigma + 1e-12).all())
+      return false;
+  return true;
 }
 
 }  // namespace
@@ -217,20 +229,27 @@ SavedMap MapFile::read(const std::filesystem::path& path) {
   map.book.way_m_ = reader.number();
   reader.expect("blocks");
   for (int left = reader.integer(0); left > 0; --left) readBlock(reader, state);
+  // Every number of the covariance takes a blank and a digit.
+  if (static_cast<double>(state.x.size()) * static_cast<double>(state.x.size()) >
+      static_cast<double>(seal))
+    reader.fail("more landmarks than covariances");
   state.P = Eigen::MatrixXd::Zero(state.x.size(), state.x.size());
   for (Eigen::Index row = 3; row < state.x.size(); ++row) {
     reader.expect("covariance");
     for (Eigen::Index column = 3; column <= row; ++column)
       state.P(row, column) = state.P(column, row) = reader.number();
   }
-  if (!state.x.allFinite() || !state.P.allFinite() || (state.P.diagonal().array() < 0.0).any())
+  if (!isCovariance(state.P) || !(state.x.cwiseAbs().maxCoeff() < kFarthest_m))
     reader.fail("numbers that no map holds");
   reader.expect("identities");
+  std::set<int> identities;
   for (int left = reader.integer(0); left > 0; --left) {
     reader.expect("identity");
     const LandmarkId id = reader.id();
-    if (!state.find(id) || !map.identities.emplace(id, reader.integer(0)).second)
-      reader.fail("an identity of no landmark, or a second one");
+    const int identity = reader.integer(0);
+    if (!state.find(id) || !map.identities.emplace(id, identity).second ||
+        !identities.insert(identity).second)
+      reader.fail("an identity of no landmark, or one twice");
   }
   reader.expect("pages");
   for (int left = reader.integer(0); left > 0; --left) {

@@ -90,8 +90,9 @@ Mapper::Mapper(const MapperOptions& options, Resumption from) : Mapper(options) 
 
 MapperReport Mapper::step(const Observation& seen) {
   const Pose2 T_world_before = estimate_.filter.pose();
+  const Eigen::Matrix3d P_before = estimate_.filter.poseCovariance();
   MapperReport report = map(seen);
-  if (search_) lookForPlace(seen, T_world_before, report);
+  if (search_) lookForPlace(seen, T_world_before, P_before, report);
   return report;
 }
 
@@ -107,14 +108,21 @@ std::vector<PlaceMark> Mapper::recentMarks(double recent_m) const {
 }
 
 void Mapper::lookForPlace(const Observation& seen, const Pose2& T_world_before,
-                          MapperReport& report) {
+                          const Eigen::Matrix3d& P_before, MapperReport& report) {
   const std::shared_ptr<Search> search = search_;
-  search->since.push_back({seen, T_world_before});
+  search->since.push_back({seen, T_world_before, P_before});
   if (search->since.size() > kMostFramesOfSearch) search->since.pop_front();
-  auto from = search->places.look(recentMarks(search->places.options().recent_m),
-                                  estimate_.filter.state(), estimate_.landmarks.way());
+  auto here = recentMarks(search->places.options().recent_m);
+  if (!search->places.isDue(here.size(), estimate_.landmarks.way())) return;
+  auto from = search->places.look(std::move(here), estimate_.filter.state());
   if (!from) return;
-  from->T_world_robot = from->T_world_robot * search->since.front().T_world_before;
+  // What is kept begins with the drive, or, after a long one, later.
+  const Search::Seen& first = search->since.front();
+  Eigen::Matrix3d J_start, J_first;
+  from->T_world_robot = compose(from->T_world_robot, first.T_world_before, &J_start, &J_first);
+  from->covariance = (J_start * from->covariance * J_start.transpose() +
+                      J_first * first.P_before * J_first.transpose())
+                         .eval();
   *this = Mapper(options_, std::move(*from));
   report.events.push_back(search->places.found(seen.stamp_s, seen.index));
   for (const Search::Seen& again : search->since) {

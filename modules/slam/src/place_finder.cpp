@@ -4,10 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <compare>
 #include <cstdint>
-#include <map>
 #include <set>
+#include <tuple>
 #include <unordered_map>
 
 namespace colonnade {
@@ -16,8 +15,10 @@ namespace {
 constexpr double kSamePlace_m = 0.10;
 /// Lengths of the pairs that are laid onto each other; longer ones where landmarks are sparse.
 constexpr double kShortest_m = 1.5, kLongest_m = 8.0;
-constexpr std::size_t kMostPairs = 150;  ///< of the small map
-constexpr std::size_t kFitted = 100;     ///< of the alignments, each elsewhere
+/// Of the small map; fewer where these alignments would become too many.
+constexpr std::size_t kMostPairs = 150, kFewestPairs = 20, kMostAlignments = 400'000;
+/// Of the alignments, each elsewhere: those with most votes are counted, then fitted.
+constexpr std::size_t kCounted = 500, kFitted = 100;
 constexpr int kFits = 3;
 /// Where the large map has nothing within this, it cannot tell.
 constexpr double kMapped_m = 2.0;
@@ -244,49 +245,93 @@ class Aligner {
   std::vector<std::size_t> place_of_;  ///< of the small map: its first mark there
 };
 
-/// Which alignments are about the same: where the middle of the small map comes to lie, and how.
-struct Bin {
-  std::int64_t x, y, turn;
-  auto operator<=>(const Bin&) const = default;
-};
-Bin binOf(const Pose2& T_map_here, const Eigen::Vector2d& middle) {
-  const Eigen::Vector2d p = transform(T_map_here, middle) / kDistinct_m;
-  return {std::llround(p.x()), std::llround(p.y()), std::llround(T_map_here.phi / kDistinct)};
-}
+/// Pairs of the small map with the pairs of the large one they may be laid onto.
+class PairTable {
+ public:
+  PairTable(std::span<const PlaceMark> map, std::span<const PlaceMark> here, double tolerance_m)
+      : map_(map), here_(here), tolerance_m_(tolerance_m) {
+    const double longest_m = longestOf(here);
+    map_pairs_ = pairsOf(map, longest_m + tolerance_m);
+    here_pairs_ = pairsOf(here, longest_m);
+    std::size_t alignments = 0;
+    for (const Pair& pair : here_pairs_) alignments += likeIt(pair).size();
+    here_pairs_ = thinned(here_pairs_, kMostPairs);
+    if (alignments > kMostAlignments)
+      here_pairs_ = thinned(
+          here_pairs_, std::max(kFewestPairs, here_pairs_.size() * kMostAlignments / alignments));
+  }
 
-/// The best alignments of pairs with pairs, one of each bin, those with most places first.
+  /// Calls visit(T_map_here) for every alignment of a pair with a pair of its like.
+  template <class Visit>
+  void forEach(Visit visit) const {
+    for (const Pair& pair : here_pairs_)
+      for (const Pair& on : likeIt(pair))
+        for (const auto& [a, b] : {std::pair(on.a, on.b), std::pair(on.b, on.a)})
+          if (mayBeOne(here_[pair.a], map_[a]) && mayBeOne(here_[pair.b], map_[b]))
+            visit(alignmentOf(here_[pair.a].p, here_[pair.b].p, map_[a].p, map_[b].p));
+  }
+
+ private:
+  std::span<const Pair> likeIt(const Pair& pair) const {
+    const auto shorter = [](const Pair& one, double length_m) { return one.length_m < length_m; };
+    const auto first = std::lower_bound(map_pairs_.begin(), map_pairs_.end(),
+                                        pair.length_m - tolerance_m_, shorter);
+    return {first,
+            std::lower_bound(first, map_pairs_.end(), pair.length_m + tolerance_m_, shorter)};
+  }
+
+  std::span<const PlaceMark> map_, here_;
+  double tolerance_m_;
+  std::vector<Pair> map_pairs_, here_pairs_;
+};
+
+/// What alignments say that are about the same: where the middle of the small map comes to lie.
+struct Bin {
+  int votes = 0;
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();  ///< sums
+  double cosine = 0.0, sine = 0.0;
+
+  Pose2 mean(const Eigen::Vector2d& middle_here) const {
+    const Pose2 turn{0.0, 0.0, std::atan2(sine, cosine)};
+    const Eigen::Vector2d t = middle / votes - transform(turn, middle_here);
+    return {t.x(), t.y(), turn.phi};
+  }
+};
+
+/// The alignments most pairs vote for, each elsewhere, those with most places first.
 std::vector<Pose2> laidOnto(std::span<const PlaceMark> map, std::span<const PlaceMark> here,
                             const Aligner& aligner, double tolerance_m) {
   const Eigen::Vector2d middle = middleOf(here);
-  const double longest_m = longestOf(here);
-  const std::vector<Pair> map_pairs = pairsOf(map, longest_m + tolerance_m);
-  struct Best {
-    int places = 0;
-    Pose2 T_map_here;
+  const auto turns = static_cast<std::int64_t>(std::lround(2.0 * kPi / kDistinct));
+  std::unordered_map<std::int64_t, Bin> bins;
+  PairTable(map, here, tolerance_m).forEach([&](const Pose2& T_map_here) {
+    const Eigen::Vector2d p = transform(T_map_here, middle);
+    const Eigen::Vector2d cell = (p / kDistinct_m).array().round();
+    const std::int64_t turn = (std::llround(T_map_here.phi / kDistinct) + turns) % turns;
+    Bin& bin = bins[(static_cast<std::int64_t>(cell.x()) * (1 << 24) +
+                     static_cast<std::int64_t>(cell.y())) *
+                        turns +
+                    turn];
+    ++bin.votes;
+    bin.middle += p;
+    bin.cosine += std::cos(T_map_here.phi);
+    bin.sine += std::sin(T_map_here.phi);
+  });
+  std::vector<std::pair<int, Pose2>> best;
+  for (const auto& [key, bin] : bins) best.emplace_back(bin.votes, bin.mean(middle));
+  const auto more = [](const auto& a, const auto& b) {
+    return std::tuple(a.first, a.second.x, a.second.y, a.second.phi) >
+           std::tuple(b.first, b.second.x, b.second.y, b.second.phi);
   };
-  std::map<Bin, Best> best_of_bin;
-  for (const Pair& pair : thinned(pairsOf(here, longest_m), kMostPairs)) {
-    const auto shortest =
-        std::lower_bound(map_pairs.begin(), map_pairs.end(), pair.length_m - tolerance_m,
-                         [](const Pair& one, double length_m) { return one.length_m < length_m; });
-    for (auto on = shortest; on != map_pairs.end() && on->length_m <= pair.length_m + tolerance_m;
-         ++on) {
-      for (const auto& [a, b] : {std::pair(on->a, on->b), std::pair(on->b, on->a)}) {
-        if (!mayBeOne(here[pair.a], map[a]) || !mayBeOne(here[pair.b], map[b])) continue;
-        const Pose2 T = alignmentOf(here[pair.a].p, here[pair.b].p, map[a].p, map[b].p);
-        const int places = aligner.count(T);
-        Best& best = best_of_bin[binOf(T, middle)];
-        if (places > best.places) best = {places, T};
-      }
-    }
-  }
-  std::vector<Best> best;
-  for (const auto& [bin, alignment] : best_of_bin) best.push_back(alignment);
-  std::stable_sort(best.begin(), best.end(),
-                   [](const Best& a, const Best& b) { return a.places > b.places; });
-  if (best.size() > kFitted) best.resize(kFitted);
+  const auto keep = [&](std::size_t most) {
+    std::sort(best.begin(), best.end(), more);
+    if (best.size() > most) best.resize(most);
+  };
+  keep(kCounted);
+  for (auto& [places, T] : best) places = aligner.count(T);
+  keep(kFitted);
   std::vector<Pose2> alignments;
-  for (const Best& one : best) alignments.push_back(one.T_map_here);
+  for (const auto& [places, T] : best) alignments.push_back(T);
   return alignments;
 }
 

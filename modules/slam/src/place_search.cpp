@@ -4,6 +4,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -14,12 +15,14 @@ namespace {
 
 /// So many times the landmarks of the last look make a new one worth it, on the spot, too.
 constexpr double kMore = 1.2;
+constexpr std::size_t kMostMarks = 60;  ///< those nearest to the robot
 /// Two looks in a row tell the same where the start is within this.
 constexpr double kSameStart_m = 0.5;
 constexpr double kSameHeading = radians(5.0);
 /// Between two maps of one landmark, beside what both are unsure of.
 constexpr double kMapNoise_m = 0.05;
 constexpr int kSteps = 3;
+constexpr double kCountedTwice = 4.0;
 
 /// The covariance of the places of some marks, two rows for each.
 Eigen::MatrixXd covarianceOf(const State& state, const std::vector<PlaceMark>& marks,
@@ -54,12 +57,21 @@ PlaceSearch::PlaceSearch(Resumption anywhere)
       [&](LandmarkId id) { return map.book.looks(id); });
 }
 
-std::optional<Resumption> PlaceSearch::look(const std::vector<PlaceMark>& here, const State& own,
-                                            double way_m) {
-  const bool more = static_cast<double>(here.size()) > kMore * static_cast<double>(looked_at_);
-  if (!more && way_m - looked_m_ < options().try_every_m) return std::nullopt;
+bool PlaceSearch::isDue(std::size_t landmarks, double way_m) {
+  const bool more = static_cast<double>(landmarks) > kMore * static_cast<double>(looked_at_);
+  if (!more && way_m - looked_m_ < options().try_every_m) return false;
   looked_m_ = way_m;
-  looked_at_ = here.size();
+  looked_at_ = landmarks;
+  return true;
+}
+
+std::optional<Resumption> PlaceSearch::look(std::vector<PlaceMark> here, const State& own) {
+  if (here.size() > kMostMarks) {
+    const auto distance = [&](const PlaceMark& mark) { return (mark.p - own.x.head<2>()).norm(); };
+    std::nth_element(here.begin(), here.begin() + kMostMarks, here.end(),
+                     [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
+    here.resize(kMostMarks);
+  }
   const FoundPlace former = std::exchange(last_, findPlace(map_, here, options()));
   if (!last_.refusal.empty()) {
     confirmed_ = 0;
@@ -69,7 +81,10 @@ std::optional<Resumption> PlaceSearch::look(const std::vector<PlaceMark>& here, 
   const bool same =
       change.translation().norm() < kSameStart_m && std::abs(change.phi) < kSameHeading;
   confirmed_ = confirmed_ > 0 && same ? confirmed_ + 1 : 1;
-  if (confirmed_ < options().confirmations) return std::nullopt;
+  if (confirmed_ < options().confirmations) {
+    last_.refusal = "not confirmed";
+    return std::nullopt;
+  }
   return startIn(here, own);
 }
 
@@ -106,7 +121,8 @@ Resumption PlaceSearch::startIn(const std::vector<PlaceMark>& here, const State&
   Resumption known = *anywhere_;
   known.anywhere.reset();
   known.T_world_robot = {T(0), T(1), wrapAngle(T(2))};
-  known.covariance = information.inverse();
+  // What told it is filtered again from there: counted twice, it may not say all it says.
+  known.covariance = kCountedTwice * information.inverse() + MapStart{}.covariance;
   return known;
 }
 

@@ -134,6 +134,9 @@ RangeBearingEstimator::RangeBearingEstimator(const RangeBearingOptions& options,
   if (from.map.source != SavedMap::Source::kReadings)
     throw Error("the map was made from cameras, and the log holds landmark readings",
                 ExitCode::kUsage);
+  if (from.anywhere)
+    throw Error("a start anywhere is found by a session, not by the filter alone",
+                ExitCode::kUsage);
   impl_->hypotheses.emplace_back(impl_->options, filter_options, from);
 }
 RangeBearingEstimator::~RangeBearingEstimator() = default;

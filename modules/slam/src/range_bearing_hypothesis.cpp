@@ -129,7 +129,8 @@ void RangeBearingHypothesis::observe(LandmarkId landmark, const LandmarkReading&
   used.push_back(landmark);
   strikes_.erase(landmark);
   refused_in_a_row_.clear();
-  if (reading.identity >= 0 && landmark_of_identity_.emplace(reading.identity, landmark).second)
+  if (grows_ && reading.identity >= 0 &&
+      landmark_of_identity_.emplace(reading.identity, landmark).second)
     identity_of_landmark_.emplace(landmark, reading.identity);
 }
 

@@ -33,8 +33,9 @@ void RangeBearingSession::run(FrameSource& source, const Observer& observer) {
     const Taken taken{frame->stamp_s, report.motion,
                       frame->range_bearing.value_or(RangeBearingScan{})};
     for (const RangeBearing& reading : taken.scan.readings) identities_.push_back(reading.id);
-    report.events = take(taken).events;
-    if (search_) lookForPlace(taken, frame->index, report.events);
+    const RangeBearingReport seen = take(taken);
+    report.events = seen.events;
+    if (search_) lookForPlace(taken, seen, frame->index, report.events);
     report.times_ms.filter = watch.lap();
     if (!observer(*frame, report, *this)) return;
     watch.lap();  // what the observer does is no stage of the session
@@ -46,24 +47,30 @@ void RangeBearingSession::run(FrameSource& source, const Observer& observer) {
 RangeBearingReport RangeBearingSession::take(const Taken& frame) {
   RangeBearingReport report = estimator_.step(frame.stamp_s, frame.motion, frame.scan);
   if (options_.smooth) record_.add(frame.stamp_s, frame.scan, report, estimator_.pose());
+  trajectory_.push_back({frame.stamp_s, estimator_.pose().toIsometry3()});
   return report;
 }
 
-void RangeBearingSession::lookForPlace(const Taken& frame, std::size_t index,
-                                       std::vector<Event>& events) {
+void RangeBearingSession::lookForPlace(const Taken& frame, const RangeBearingReport& taken,
+                                       std::size_t index, std::vector<Event>& events) {
   since_.push_back(frame);
+  // A motion the filter did not take is none the second time, either (wait_for_landmark).
+  if (taken.motion_covariance.isZero()) since_.back().motion = {};
   way_m_ += frame.motion.T_previous_robot.translation().norm();
+  const auto& blocks = estimator_.filter().state().blocks;
+  if (!search_->isDue(blocks.size(), way_m_)) return;
   const State own = estimator_.filter().fullState();
   const auto here = placeMarks(
       own, [](const Block&) { return true; },
       [&](LandmarkId id) { return estimator_.identityOf(id); }, [](LandmarkId) { return nullptr; });
-  auto from = search_->look(here, own, way_m_);
+  auto from = search_->look(here, own);
   if (!from) return;
   from_ = std::move(from);
   events.push_back(search_->found(frame.stamp_s, index));
   search_.reset();
   estimator_ = RangeBearingEstimator(options_, filter_options_, *from_);
   record_ = {};
+  trajectory_.clear();
   for (const Taken& again : std::exchange(since_, {})) {
     const RangeBearingReport report = take(again);
     events.insert(events.end(), report.events.begin(), report.events.end());
@@ -91,7 +98,9 @@ SavedMap RangeBearingSession::savedMap() const {
     state.blocks.push_back({landmark.id, BlockKind::kPoint, landmark.kind,
                             static_cast<int>(3 + 2 * state.blocks.size()), block->evidence});
   }
-  if (!from_ && !smoothed_->trajectory.empty())
+  if (from_ && !search_)
+    map.T_world_start = from_->map.T_world_start;
+  else if (!smoothed_->trajectory.empty())
     map.T_world_start = planarPart(smoothed_->trajectory.front().T_world_body);
   const Eigen::Index size = smoothed_->covariance.rows();
   state.x.setZero(3 + size);
@@ -102,6 +111,22 @@ SavedMap RangeBearingSession::savedMap() const {
   std::erase_if(map.identities, [&](const auto& named) { return !state.find(named.first); });
   map.state = std::move(state);
   return map;
+}
+
+std::vector<std::string> RangeBearingSession::notes() const {
+  std::vector<std::string> notes;
+  if (!from_ || search_) return notes;
+  const auto decisions = estimator_.decisions();
+  const auto known = std::count_if(decisions.begin(), decisions.end(),
+                                   [](const auto& landmark) { return landmark.has_value(); });
+  const auto readings = static_cast<std::ptrdiff_t>(decisions.size());
+  if (2 * known < readings)
+    notes.push_back(std::to_string(readings - known) + " of " + std::to_string(readings) +
+                    " readings are of no landmark of the map: is the start right? Give --start "
+                    "x,y,heading or --start anywhere");
+  if (options_.smooth && !smoothed_)
+    notes.emplace_back("not smoothed: too few readings fit, or too much of the map was seen");
+  return notes;
 }
 
 IdentityScore RangeBearingSession::identityScore() const {

@@ -165,10 +165,19 @@ void RangeBearingSlam::saveMap(const std::filesystem::path& file) const {
   writeFileAtomically(file, MapFile::text(estimator_->savedMap()));
 }
 
+void RangeBearingSlam::loadMap(const std::filesystem::path& file, bool localize) {
+  MapStart start;
+  start.localize = localize;
+  start.T_world_robot = MapFile::read(file).T_world_start;
+  loadMap(file, start);
+}
+
 void RangeBearingSlam::loadMap(const std::filesystem::path& file, const MapStart& start) {
   const Resumption from{start, MapFile::read(file)};
+  auto estimator =
+      std::make_unique<RangeBearingEstimator>(effective(options), options.filter, from);
   reset();
-  estimator_ = std::make_unique<RangeBearingEstimator>(effective(options), options.filter, from);
+  estimator_ = std::move(estimator);
 }
 
 void RangeBearingSlam::processActionObservation(

@@ -34,7 +34,8 @@ class DriveRecord {
   /// the estimator has it if it moved as a whole. Nothing when there is no reading of a landmark,
   /// or when smoothing failed: not finite, or half of the readings left out.
   /// from: the map the estimator went on from. Start and map then count as far as they are known,
-  /// and a map that is left as it is stays; nothing for more than 500 landmarks in it.
+  /// and a map that is left as it is stays; nothing where the drive saw more than 500 of its
+  /// landmarks.
   std::optional<Smoothed> smoothed(const RangeBearingEstimator& estimator,
                                    const RangeBearingOptions& options,
                                    const std::optional<Resumption>& from = std::nullopt) const;

@@ -113,14 +113,16 @@ class Mapper {
   struct Search {
     struct Seen {
       Observation observation;
-      Pose2 T_world_before;  ///< the robot, before its motion
+      Pose2 T_world_before;      ///< the robot, before its motion
+      Eigen::Matrix3d P_before;  ///< and its covariance
     };
     PlaceSearch places;
     std::deque<Seen> since;
   };
 
   MapperReport map(const Observation& seen);
-  void lookForPlace(const Observation& seen, const Pose2& T_world_before, MapperReport& report);
+  void lookForPlace(const Observation& seen, const Pose2& T_world_before,
+                    const Eigen::Matrix3d& P_before, MapperReport& report);
   std::vector<PlaceMark> recentMarks(double recent_m) const;
   MapperReport advance(const Observation& seen);
   void keepUp(const Observation& seen, const std::vector<LandmarkId>& matched,

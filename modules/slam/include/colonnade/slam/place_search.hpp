@@ -19,11 +19,11 @@ class PlaceSearch {
  public:
   explicit PlaceSearch(Resumption anywhere);
 
-  /// Looks for the place now and then. here: marks of the drive's own map; own: its state; way_m:
-  /// driven. Once the place is believed: the map, and where in it the drive's own world starts, as
-  /// well as both maps tell.
-  std::optional<Resumption> look(const std::vector<PlaceMark>& here, const State& own,
-                                 double way_m);
+  /// Whether a look is worth it: some way after the last one, or with more landmarks.
+  bool isDue(std::size_t landmarks, double way_m);
+  /// Looks for the place. here: marks of the drive's own map; own: its state. Once the place is
+  /// believed: the map, and where in it the drive's own world starts, as well as both maps tell.
+  std::optional<Resumption> look(std::vector<PlaceMark> here, const State& own);
   const FoundPlace& last() const { return last_; }
   const PlaceOptions& options() const { return *anywhere_->anywhere; }
   /// The event `place found`.

@@ -48,7 +48,7 @@ class RangeBearingEstimator {
   /// Filter.error_correlation_s give way to those of RangeBearingOptions.
   RangeBearingEstimator(const RangeBearingOptions& options, const FilterOptions& filter_options);
   /// Goes on from a map, or finds its way in it and founds no landmark. Throws Error (kUsage)
-  /// besides for a map made from cameras.
+  /// besides for a map made from cameras and for a start anywhere.
   RangeBearingEstimator(const RangeBearingOptions& options, const FilterOptions& filter_options,
                         const Resumption& from);
   ~RangeBearingEstimator();

@@ -36,6 +36,11 @@ class RangeBearingSession {
   /// Smoothed, once it is. Where the log's identities are believed and every landmark has one, they
   /// are the ids of the map; otherwise those of the filter.
   LandmarkMap map() const;
+  /// Every frame as it was known at its moment, or, before its place was found, when that was.
+  const Trajectory& trajectory() const { return trajectory_; }
+  /// Why the drive was not smoothed though it should be, or that the start may be wrong; a line
+  /// each.
+  std::vector<std::string> notes() const;
   /// As long as nobody knows where in the map that was loaded the robot is; then nullptr.
   const PlaceSearch* search() const { return search_ ? &*search_ : nullptr; }
   /// What a later run needs to go on: smoothed, once it is, up to 500 landmarks.
@@ -51,13 +56,15 @@ class RangeBearingSession {
     RangeBearingScan scan;
   };
   RangeBearingReport take(const Taken& frame);
-  void lookForPlace(const Taken& frame, std::size_t index, std::vector<Event>& events);
+  void lookForPlace(const Taken& frame, const RangeBearingReport& taken, std::size_t index,
+                    std::vector<Event>& events);
 
   RangeBearingOptions options_;
   FilterOptions filter_options_;
   std::optional<Resumption> from_;
   std::optional<PlaceSearch> search_;
   std::vector<Taken> since_;  ///< while the place is searched
+  Trajectory trajectory_;
   double way_m_ = 0.0;
   RangeBearingEstimator estimator_;
   MotionEstimator motion_;

@@ -73,9 +73,11 @@ class RangeBearingSlam {
   /// Writes what a later run needs to go on: landmarks, their joint covariance and identities.
   /// Throws Error.
   void saveMap(const std::filesystem::path& file) const;
-  /// reset(), in a map written by saveMap() or `colonnade run`. Throws Error naming the file and
-  /// what is wrong with it.
-  void loadMap(const std::filesystem::path& file, const MapStart& start = {});
+  /// reset(), in a map written by saveMap() or `colonnade run`: where the drive that made it
+  /// started, or where `start` says. localize: the map stays as it is. Throws Error naming the file
+  /// and what is wrong with it, and changes nothing then.
+  void loadMap(const std::filesystem::path& file, bool localize = false);
+  void loadMap(const std::filesystem::path& file, const MapStart& start);
 
   /// One step: the best motion of the actions (none: standing still with stds_Q_no_odo), then the
   /// CObservationBearingRange of the frame. Throws Error when the frame holds none.
