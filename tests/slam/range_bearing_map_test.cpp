@@ -214,6 +214,16 @@ TEST_F(ReadingMaps, TakeInWhatWasNotInThem) {
   EXPECT_LT(rmsOfPosts(grown.map), 0.2);
 }
 
+TEST_F(ReadingMaps, WhatOneWrongReadingFoundedStaysAsUnsureAsItIs) {
+  RingOfPosts source = ring(12);
+  source.ghost_at = 30;
+  RangeBearingOptions options;
+  options.known_gate_probability = 0.9;
+  const Day day = drive(source, options, resumption(false));
+  ASSERT_EQ(day.map.size(), firstDay().map.size() + 1);
+  for (const LandmarkRecord& landmark : day.map) EXPECT_LT(landmark.covariance.trace(), 1.0);
+}
+
 TEST_F(ReadingMaps, ARobotThatIsElsewhereFindsBackByKnownIdentities) {
   RingOfPosts source = ring(6);
   Resumption from = resumption(true);

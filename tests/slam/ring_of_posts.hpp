@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "colonnade/base/trajectory.hpp"
@@ -38,6 +39,9 @@ class RingOfPosts : public FrameSource {
       frame.range_bearing->readings.push_back(
           {i + 1, p.norm() + gauss(0.05), bearing + gauss(radians(1.0)), 0.0, {}});
     }
+    if (truth.size() == ghost_at || truth.size() == ghost_at + 1)  // 3 m apart
+      frame.range_bearing->readings.push_back(
+          {kPosts + 1, 2.0, truth.size() == ghost_at ? 0.8 : -0.8, 0.0, {}});
     truth.push_back({frame.stamp_s, T_world_robot_.toIsometry3()});
     return frame;
   }
@@ -61,6 +65,8 @@ class RingOfPosts : public FrameSource {
   static constexpr int kPosts = 24;
   Trajectory truth;
   std::size_t blind = 0;  ///< frames at the start that show nothing
+  /// A frame after which a post that is none is seen at two places.
+  std::size_t ghost_at = std::numeric_limits<std::size_t>::max() - 1;
 
  private:
   static constexpr Pose2 kWay{0.2, 0.0, 2.0 * kPi / kSteps};

@@ -26,6 +26,14 @@ Eigen::MatrixXd inverseOf(const Eigen::LLT<Eigen::MatrixXd>& P) {
   return P.solve(Eigen::MatrixXd::Identity(P.rows(), P.cols()));
 }
 
+/// The covariance of a place that has nothing in common with the others.
+void standAlone(Eigen::MatrixXd& C, std::size_t i, const Eigen::Matrix2d& covariance) {
+  const auto row = static_cast<Eigen::Index>(2 * i);
+  C.middleRows<2>(row).setZero();
+  C.middleCols<2>(row).setZero();
+  C.block<2, 2>(row, row) = covariance;
+}
+
 /// What a loaded map says beforehand. Smoothed with are those of its landmarks the drive saw; the
 /// others follow by what they have in common with them.
 class KnownMap {
@@ -67,9 +75,10 @@ class KnownMap {
     return prior;
   }
 
-  /// All places and their covariance (none: empty), from those kept.
+  /// All places and their covariance (none: empty), from those kept. A new landmark none of whose
+  /// readings was `used` stays as it is.
   void spread(const std::vector<Eigen::Vector2d>& points_kept, const Eigen::MatrixXd& C_kept,
-              LandmarkMap& map, Eigen::MatrixXd& C) const {
+              const std::vector<double>& used, LandmarkMap& map, Eigen::MatrixXd& C) const {
     const auto seen = static_cast<Eigen::Index>(seen_rows_.size());
     Eigen::VectorXd moved = -from_.map.state.x(seen_rows_);
     for (Eigen::Index i = 0; i < seen; i += 2)
@@ -80,7 +89,9 @@ class KnownMap {
     const auto put = [&](std::size_t i, const Eigen::Vector2d& p) {
       map[i].p_world = map[i].extent_a = map[i].extent_b = p;
     };
-    for (std::size_t k = 0; k < kept_.size(); ++k) put(kept_[k], points_kept[k]);
+    const auto stays = [&](std::size_t k) { return 2 * k >= seen_rows_.size() && used[k] == 0.0; };
+    for (std::size_t k = 0; k < kept_.size(); ++k)
+      if (!stays(k)) put(kept_[k], points_kept[k]);
     for (std::size_t k = 0; k < unseen_.size(); ++k)
       put(unseen_[k], unseen.segment<2>(static_cast<Eigen::Index>(2 * k)));
     if (C_kept.size() == 0 || map.size() > kMostOfMap) return;
@@ -102,6 +113,8 @@ class KnownMap {
         from_.map.state.P(unseen_rows_, unseen_rows_) +
         gain * (C_kept.topLeftCorner(seen, seen) - P_seen_) * gain.transpose();
     C = (0.5 * (C + C.transpose())).eval();
+    for (std::size_t k = 0; k < kept_.size(); ++k)
+      if (stays(k)) standAlone(C, kept_[k], map[kept_[k]].covariance);
     for (std::size_t i = 0; i < map.size(); ++i) {
       const auto row = static_cast<Eigen::Index>(2 * i);
       map[i].covariance = C.block<2, 2>(row, row);
@@ -198,7 +211,7 @@ std::optional<DriveRecord::Smoothed> DriveRecord::smoothed(
         {stamps_s_[k], (T_map_start * drive.T_world_robot[k]).toIsometry3()});
   if (known) {
     if (!from->localize)
-      known->spread(drive.points_world, result.how.covariance, result.map, result.covariance);
+      known->spread(drive.points_world, result.how.covariance, used, result.map, result.covariance);
     return result;
   }
   const Eigen::Matrix2d R = T_map_start.rotation();
@@ -221,9 +234,7 @@ std::optional<DriveRecord::Smoothed> DriveRecord::smoothed(
       landmark.covariance = result.covariance.block<2, 2>(row, row);
       continue;
     }
-    result.covariance.middleRows<2>(row).setZero();
-    result.covariance.middleCols<2>(row).setZero();
-    result.covariance.block<2, 2>(row, row) = landmark.covariance;
+    standAlone(result.covariance, i, landmark.covariance);
   }
   return result;
 }

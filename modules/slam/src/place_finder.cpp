@@ -17,7 +17,7 @@ constexpr double kSamePlace_m = 0.10;
 constexpr double kShortest_m = 1.5, kLongest_m = 8.0;
 /// Of the small map; fewer where these alignments would become too many.
 constexpr std::size_t kMostPairs = 150, kFewestPairs = 20, kMostAlignments = 400'000;
-/// Of the alignments, each elsewhere: those with most votes are counted, then fitted.
+/// Of the alignments, one of each bin: those with most votes are counted, then fitted.
 constexpr std::size_t kCounted = 500, kFitted = 100;
 constexpr int kFits = 3;
 /// Where the large map has nothing within this, it cannot tell.
@@ -91,8 +91,9 @@ std::vector<Pair> pairsOf(std::span<const PlaceMark> marks, double longest_m) {
       if (const double length = (marks[b].p - marks[a].p).norm();
           length >= kShortest_m && length <= longest_m)
         pairs.push_back({a, b, length});
-  std::sort(pairs.begin(), pairs.end(),
-            [](const Pair& one, const Pair& other) { return one.length_m < other.length_m; });
+  std::sort(pairs.begin(), pairs.end(), [](const Pair& one, const Pair& other) {
+    return std::tuple(one.length_m, one.a, one.b) < std::tuple(other.length_m, other.a, other.b);
+  });
   return pairs;
 }
 
@@ -298,7 +299,7 @@ struct Bin {
   }
 };
 
-/// The alignments most pairs vote for, each elsewhere, those with most places first.
+/// The alignments most pairs vote for, one of each bin, those with most places first.
 std::vector<Pose2> laidOnto(std::span<const PlaceMark> map, std::span<const PlaceMark> here,
                             const Aligner& aligner, double tolerance_m) {
   const Eigen::Vector2d middle = middleOf(here);

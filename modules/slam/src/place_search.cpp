@@ -6,6 +6,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 #include "colonnade/base/text.hpp"
@@ -67,7 +68,9 @@ bool PlaceSearch::isDue(std::size_t landmarks, double way_m) {
 
 std::optional<Resumption> PlaceSearch::look(std::vector<PlaceMark> here, const State& own) {
   if (here.size() > kMostMarks) {
-    const auto distance = [&](const PlaceMark& mark) { return (mark.p - own.x.head<2>()).norm(); };
+    const auto distance = [&](const PlaceMark& mark) {
+      return std::tuple((mark.p - own.x.head<2>()).norm(), mark.p.x(), mark.p.y());
+    };
     std::nth_element(here.begin(), here.begin() + kMostMarks, here.end(),
                      [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
     here.resize(kMostMarks);

@@ -55,13 +55,17 @@ void RangeBearingSession::lookForPlace(const Taken& frame, const RangeBearingRep
                                        std::size_t index, std::vector<Event>& events) {
   since_.push_back(frame);
   // A motion the filter did not take is none the second time, either (wait_for_landmark).
-  if (taken.motion_covariance.isZero()) since_.back().motion = {};
+  if (taken.motion_covariance == Eigen::Matrix3d::Zero()) since_.back().motion = {};
   way_m_ += frame.motion.T_previous_robot.translation().norm();
   const auto& blocks = estimator_.filter().state().blocks;
   if (!search_->isDue(blocks.size(), way_m_)) return;
   const State own = estimator_.filter().fullState();
   const auto here = placeMarks(
-      own, [](const Block&) { return true; },
+      own,
+      [&](const Block& block) {
+        return estimator_.identityOf(block.id) ||
+               block.evidence.observations >= options_.probation_sightings;
+      },
       [&](LandmarkId id) { return estimator_.identityOf(id); }, [](LandmarkId) { return nullptr; });
   auto from = search_->look(here, own);
   if (!from) return;
@@ -125,7 +129,8 @@ std::vector<std::string> RangeBearingSession::notes() const {
                     " readings are of no landmark of the map: is the start right? Give --start "
                     "x,y,heading or --start anywhere");
   if (options_.smooth && !smoothed_)
-    notes.emplace_back("not smoothed: too few readings fit, or too much of the map was seen");
+    notes.emplace_back(
+        "not smoothed: too few readings fit, or the map is too large or too unsure to count");
   return notes;
 }
 

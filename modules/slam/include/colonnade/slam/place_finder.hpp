@@ -41,7 +41,8 @@ struct PlaceOptions {
     v.number("ambiguity", ambiguity, {0, 1},
              "with this share of the evidence for another place nothing is found");
     v.integer("confirmations", confirmations, {1, 20}, "in a row before the place is believed");
-    v.number("recent_m", recent_m, {1, 1000}, "way whose landmarks are compared with the map");
+    v.number("recent_m", recent_m, {1, 1000},
+             "way whose landmarks are compared with the map (cameras)");
     v.number("try_every_m", try_every_m, {0.05, 10}, "of the way the place is looked for");
   }
 };
