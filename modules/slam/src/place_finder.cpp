@@ -5,68 +5,23 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <set>
 #include <tuple>
 #include <unordered_map>
+
+#include "place_aligner.hpp"
 
 namespace colonnade {
 namespace {
 
-constexpr double kSamePlace_m = 0.10;
 /// Lengths of the pairs that are laid onto each other; longer ones where landmarks are sparse.
 constexpr double kShortest_m = 1.5, kLongest_m = 8.0;
 /// Of the small map; fewer where these alignments would become too many.
 constexpr std::size_t kMostPairs = 150, kFewestPairs = 20, kMostAlignments = 400'000;
 /// Of the alignments, one of each bin: those with most votes are counted, then fitted.
 constexpr std::size_t kCounted = 500, kFitted = 100;
-constexpr int kFits = 3;
-/// Where the large map has nothing within this, it cannot tell.
-constexpr double kMapped_m = 2.0;
-/// A landmark has a like of its own within the tolerance by chance this often, or a namesake.
-constexpr double kChance = 0.2, kChanceOfNamesake = 0.02;
-constexpr double kLeastRms_m = 0.01;  ///< nothing fits better, but by chance
 /// Alignments nearer than this are one.
 constexpr double kDistinct_m = 0.5;
 constexpr double kDistinct = radians(10.0);
-
-bool mayBeOne(const PlaceMark& a, const PlaceMark& b) {
-  if (a.kind != b.kind) return false;
-  if (a.identity && b.identity) return *a.identity == *b.identity;
-  return a.kind != LandmarkKind::kPillarEdge || !a.looks || !b.looks ||
-         a.looks->sameDarkSide(*b.looks);
-}
-
-/// Marks by square cells, for those near a point.
-class Cells {
- public:
-  Cells(std::span<const PlaceMark> marks, double side_m) : marks_(marks), side_m_(side_m) {
-    for (std::size_t i = 0; i < marks.size(); ++i) cells_[keyOf(cellOf(marks[i].p))].push_back(i);
-  }
-  /// Calls visit(index, distance) for marks within `reach_m`, at most a side of a cell.
-  template <class Visit>
-  void near(const Eigen::Vector2d& p, double reach_m, Visit visit) const {
-    const Eigen::Vector2i middle = cellOf(p);
-    for (int dx = -1; dx <= 1; ++dx) {
-      for (int dy = -1; dy <= 1; ++dy) {
-        const auto cell = cells_.find(keyOf(middle + Eigen::Vector2i(dx, dy)));
-        if (cell == cells_.end()) continue;
-        for (const std::size_t i : cell->second)
-          if (const double d = (marks_[i].p - p).norm(); d <= reach_m) visit(i, d);
-      }
-    }
-  }
-
- private:
-  Eigen::Vector2i cellOf(const Eigen::Vector2d& p) const {
-    return (p / side_m_).array().floor().cast<int>();
-  }
-  static std::int64_t keyOf(const Eigen::Vector2i& cell) {
-    return (static_cast<std::int64_t>(cell.x()) << 32) ^ static_cast<std::uint32_t>(cell.y());
-  }
-  std::span<const PlaceMark> marks_;
-  double side_m_;
-  std::unordered_map<std::int64_t, std::vector<std::size_t>> cells_;
-};
 
 struct Pair {
   std::size_t a, b;
@@ -118,133 +73,6 @@ Eigen::Vector2d middleOf(std::span<const PlaceMark> marks) {
   for (const PlaceMark& mark : marks) middle += mark.p / static_cast<double>(marks.size());
   return middle;
 }
-
-class Aligner {
- public:
-  Aligner(std::span<const PlaceMark> map, std::span<const PlaceMark> here,
-          const PlaceOptions& options)
-      : map_(map),
-        here_(here),
-        options_(options),
-        near_(map, 2.0 * options.tolerance_m),
-        around_(map, kMapped_m),
-        place_of_(here.size()) {
-    for (std::size_t i = 0; i < here.size(); ++i) {
-      place_of_[i] = i;
-      for (std::size_t k = 0; k < i && place_of_[i] == i; ++k)
-        if ((here[k].p - here[i].p).norm() < kSamePlace_m) place_of_[i] = place_of_[k];
-    }
-  }
-
-  struct Alignment {
-    Pose2 T_map_here;
-    std::vector<std::pair<std::size_t, std::size_t>> pairs;
-    int fits = 0;
-    int of = 0;
-    int named = 0;  ///< of the places that fit, with the same identity
-    double rms_m = 0.0;
-    double evidence = 0.0;
-  };
-
-  /// Places that have a like of theirs within twice the tolerance.
-  int count(const Pose2& T_map_here) const {
-    std::vector<bool> fits(here_.size(), false);
-    for (std::size_t i = 0; i < here_.size(); ++i)
-      near_.near(transform(T_map_here, here_[i].p), 2.0 * options_.tolerance_m,
-                 [&](std::size_t k, double) {
-                   if (mayBeOne(here_[i], map_[k])) fits[place_of_[i]] = true;
-                 });
-    return static_cast<int>(std::count(fits.begin(), fits.end(), true));
-  }
-
-  /// By least squares, the reach becoming narrower.
-  Alignment fitted(Pose2 T_map_here) const {
-    std::vector<Pairing> pairs;
-    for (int fit = 0; fit < kFits; ++fit) {
-      const double wider = fit + 1 < kFits ? 2.0 : 1.0;
-      pairs = paired(T_map_here, wider * options_.tolerance_m);
-      if (pairs.size() < 2) return {};
-      T_map_here = leastSquares(pairs);
-    }
-    Alignment found{T_map_here, {}, 0, 0, 0, 0.0, 0.0};
-    std::set<std::size_t> fits, of, named;
-    double sum2 = 0.0;
-    for (const Pairing& pair : pairs) {
-      found.pairs.emplace_back(pair.here, pair.map);
-      fits.insert(place_of_[pair.here]);
-      if (here_[pair.here].identity && map_[pair.map].identity) named.insert(place_of_[pair.here]);
-      sum2 += (transform(T_map_here, here_[pair.here].p) - map_[pair.map].p).squaredNorm();
-    }
-    for (std::size_t i = 0; i < here_.size(); ++i)
-      around_.near(transform(T_map_here, here_[i].p), kMapped_m,
-                   [&](std::size_t, double) { of.insert(place_of_[i]); });
-    found.fits = static_cast<int>(fits.size());
-    found.of = static_cast<int>(of.size());
-    found.named = static_cast<int>(named.size());
-    found.rms_m = std::sqrt(sum2 / static_cast<double>(pairs.size()));
-    found.evidence = evidenceOf(found);
-    return found;
-  }
-
-  /// How unlikely chance does as well, as a natural logarithm: so many places have a like of theirs
-  /// within the tolerance, and these, but for the three numbers that were fitted, lie so near.
-  double evidenceOf(const Alignment& a) const {
-    const double by_chance =
-        (a.fits - a.named) * std::log(kChance) + a.named * std::log(kChanceOfNamesake);
-    const double nearer = options_.tolerance_m / std::max(a.rms_m, kLeastRms_m);
-    return std::max(0, 2 * a.fits - 3) * std::log(nearer) - by_chance;
-  }
-
- private:
-  struct Pairing {
-    std::size_t here, map;
-    double distance_m;
-  };
-
-  /// Each with one of the other map at most, the nearest first.
-  std::vector<Pairing> paired(const Pose2& T_map_here, double reach_m) const {
-    std::vector<Pairing> all, taken;
-    for (std::size_t i = 0; i < here_.size(); ++i)
-      near_.near(transform(T_map_here, here_[i].p), reach_m, [&](std::size_t k, double d) {
-        if (mayBeOne(here_[i], map_[k])) all.push_back({i, k, d});
-      });
-    std::stable_sort(all.begin(), all.end(), [](const Pairing& a, const Pairing& b) {
-      return a.distance_m < b.distance_m;
-    });
-    std::set<std::size_t> used_here, used_map;
-    for (const Pairing& pair : all) {
-      if (used_here.contains(pair.here) || used_map.contains(pair.map)) continue;
-      used_here.insert(pair.here);
-      used_map.insert(pair.map);
-      taken.push_back(pair);
-    }
-    return taken;
-  }
-
-  /// Horn 1987, in the plane.
-  Pose2 leastSquares(const std::vector<Pairing>& pairs) const {
-    const auto count = static_cast<double>(pairs.size());
-    Eigen::Vector2d here = Eigen::Vector2d::Zero(), map = here;
-    for (const Pairing& pair : pairs) {
-      here += here_[pair.here].p / count;
-      map += map_[pair.map].p / count;
-    }
-    double cosine = 0.0, sine = 0.0;
-    for (const Pairing& pair : pairs) {
-      const Eigen::Vector2d a = here_[pair.here].p - here, b = map_[pair.map].p - map;
-      cosine += a.dot(b);
-      sine += a.x() * b.y() - a.y() * b.x();
-    }
-    const Pose2 turn{0.0, 0.0, std::atan2(sine, cosine)};
-    const Eigen::Vector2d t = map - transform(turn, here);
-    return {t.x(), t.y(), turn.phi};
-  }
-
-  std::span<const PlaceMark> map_, here_;
-  const PlaceOptions& options_;
-  Cells near_, around_;
-  std::vector<std::size_t> place_of_;  ///< of the small map: its first mark there
-};
 
 /// Pairs of the small map with the pairs of the large one they may be laid onto.
 class PairTable {
@@ -301,7 +129,7 @@ struct Bin {
 
 /// The alignments most pairs vote for, one of each bin, those with most places first.
 std::vector<Pose2> laidOnto(std::span<const PlaceMark> map, std::span<const PlaceMark> here,
-                            const Aligner& aligner, double tolerance_m) {
+                            const PlaceAligner& aligner, double tolerance_m) {
   const Eigen::Vector2d middle = middleOf(here);
   const auto turns = static_cast<std::int64_t>(std::lround(2.0 * kPi / kDistinct));
   std::unordered_map<std::int64_t, Bin> bins;
@@ -342,16 +170,16 @@ FoundPlace findPlace(std::span<const PlaceMark> map, std::span<const PlaceMark> 
                      const PlaceOptions& options) {
   FoundPlace found;
   if (here.size() < 2 || map.size() < 2) return found;
-  const Aligner aligner(map, here, options);
-  std::vector<Aligner::Alignment> alignments;
+  const PlaceAligner aligner(map, here, options);
+  std::vector<PlaceAligner::Alignment> alignments;
   for (const Pose2& T : laidOnto(map, here, aligner, options.tolerance_m))
     alignments.push_back(aligner.fitted(T));
   if (alignments.empty()) return found;
   std::stable_sort(alignments.begin(), alignments.end(),
                    [](const auto& a, const auto& b) { return a.evidence > b.evidence; });
-  const Aligner::Alignment& best = alignments.front();
+  const PlaceAligner::Alignment& best = alignments.front();
   const Eigen::Vector2d middle = middleOf(here);
-  for (const Aligner::Alignment& other : alignments) {
+  for (const PlaceAligner::Alignment& other : alignments) {
     const bool same =
         (transform(best.T_map_here, middle) - transform(other.T_map_here, middle)).norm() <
             kDistinct_m &&
