@@ -221,6 +221,17 @@ std::optional<Resumption> resumption(const RunArguments& arguments, const RunOpt
   return from;
 }
 
+void refuseOtherKind(const RunArguments& arguments, const std::optional<Resumption>& from,
+                     SavedMap::Source of_log) {
+  if (!from || from->map.source == of_log) return;
+  throw Error(arguments.map.string() + ": made from " +
+                  (of_log == SavedMap::Source::kReadings
+                       ? "cameras, and the log holds landmark readings"
+                       : "landmark readings, and the log holds camera frames") +
+                  "; give a map of a log of its kind",
+              ExitCode::kUsage);
+}
+
 /// A session over a source, into a results folder.
 template <class AnySession>
 ExitCode runSession(AnySession& session, FrameSource& source, const RunInputs& inputs) {
@@ -292,21 +303,16 @@ ExitCode run(const RunArguments& arguments) {
   RawlogSource log(arguments.log, options.source);
   const RunInputs inputs{arguments, options, truth, log};
   auto from = resumption(arguments, options);
-  const auto made_from = readings_only ? SavedMap::Source::kReadings : SavedMap::Source::kCamera;
-  if (from && from->map.source != made_from)
-    throw Error(arguments.map.string() + ": made from " +
-                    (readings_only ? "cameras, and the log holds landmark readings"
-                                   : "landmark readings, and the log holds camera frames") +
-                    "; give a map of a log of its kind",
-                ExitCode::kUsage);
   if (readings_only) {
+    refuseOtherKind(arguments, from, SavedMap::Source::kReadings);
     RangeBearingSession session(options.range_bearing, options.session.filter,
                                 options.session.motion, std::move(from));
     return runSession(session, log, inputs);
   }
+  CameraFrames source(log, arguments.log);
+  refuseOtherKind(arguments, from, SavedMap::Source::kCamera);
   Session session(options.session, makeImageStage(arguments.backend, options.session.edges),
                   std::move(from));
-  CameraFrames source(log, arguments.log);
   return runSession(session, source, inputs);
 }
 
