@@ -83,9 +83,13 @@ class KnownMap {
     Eigen::VectorXd moved = -from_.map.state.x(seen_rows_);
     for (Eigen::Index i = 0; i < seen; i += 2)
       moved.segment<2>(i) += points_kept[static_cast<std::size_t>(i / 2)];
-    const Eigen::MatrixXd P_cross = from_.map.state.P(unseen_rows_, seen_rows_);
-    const Eigen::MatrixXd gain = seen_llt_.solve(P_cross.transpose()).transpose();
-    const Eigen::VectorXd unseen = from_.map.state.x(unseen_rows_) + gain * moved;
+    Eigen::MatrixXd gain(static_cast<Eigen::Index>(unseen_rows_.size()), seen);
+    Eigen::VectorXd unseen;
+    if (!unseen_.empty()) {
+      const Eigen::MatrixXd P_cross = from_.map.state.P(unseen_rows_, seen_rows_);
+      gain = seen_llt_.solve(P_cross.transpose()).transpose();
+      unseen = from_.map.state.x(unseen_rows_) + gain * moved;
+    }
     const auto put = [&](std::size_t i, const Eigen::Vector2d& p) {
       map[i].p_world = map[i].extent_a = map[i].extent_b = p;
     };
@@ -107,11 +111,13 @@ class KnownMap {
     C.resize(size, size);
     const Eigen::MatrixXd C_cross = gain * C_kept.topRows(seen);
     C(at_kept, at_kept) = C_kept;
-    C(at_unseen, at_kept) = C_cross;
-    C(at_kept, at_unseen) = C_cross.transpose();
-    C(at_unseen, at_unseen) =
-        from_.map.state.P(unseen_rows_, unseen_rows_) +
-        gain * (C_kept.topLeftCorner(seen, seen) - P_seen_) * gain.transpose();
+    if (!unseen_.empty()) {
+      C(at_unseen, at_kept) = C_cross;
+      C(at_kept, at_unseen) = C_cross.transpose();
+      C(at_unseen, at_unseen) =
+          from_.map.state.P(unseen_rows_, unseen_rows_) +
+          gain * (C_kept.topLeftCorner(seen, seen) - P_seen_) * gain.transpose();
+    }
     C = (0.5 * (C + C.transpose())).eval();
     for (std::size_t k = 0; k < kept_.size(); ++k)
       if (stays(k)) standAlone(C, kept_[k], map[kept_[k]].covariance);
