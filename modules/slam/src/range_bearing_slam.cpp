@@ -166,14 +166,17 @@ void RangeBearingSlam::saveMap(const std::filesystem::path& file) const {
 }
 
 void RangeBearingSlam::loadMap(const std::filesystem::path& file, bool localize) {
-  MapStart start;
-  start.localize = localize;
-  start.T_world_robot = MapFile::read(file).T_world_start;
-  loadMap(file, start);
+  Resumption from{{}, MapFile::read(file)};
+  from.localize = localize;
+  from.T_world_robot = from.map.T_world_start;
+  resume(from);
 }
 
 void RangeBearingSlam::loadMap(const std::filesystem::path& file, const MapStart& start) {
-  const Resumption from{start, MapFile::read(file)};
+  resume({start, MapFile::read(file)});
+}
+
+void RangeBearingSlam::resume(const Resumption& from) {
   auto estimator =
       std::make_unique<RangeBearingEstimator>(effective(options), options.filter, from);
   reset();

@@ -100,6 +100,8 @@ class RangeBearingSlam {
   const RangeBearingReport& getLastDataAssociation() const { return last_; }
 
  private:
+  void resume(const Resumption& from);
+
   std::unique_ptr<RangeBearingEstimator> estimator_;
   RangeBearingReport last_;
   double steps_ = 0.0;
