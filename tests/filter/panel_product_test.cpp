@@ -23,19 +23,24 @@ TEST(PanelProduct, GivesTheBitsOfSumsTakenOneByOne) {
   const auto at = [](std::ptrdiff_t i) { return static_cast<std::size_t>(i); };
   for (const std::ptrdiff_t columns : {1, 2, 33}) {
     for (const std::ptrdiff_t depth : {0, 1, 33}) {
-      const std::ptrdiff_t stride = columns + 5;
-      const auto A = numbers(kPanelRows * depth), B = numbers(stride * depth);
+      const std::ptrdiff_t rows = columns + 5;
+      const auto A = numbers(kPanelRows * depth);
+      auto B = numbers(rows * depth);
+      // What begins with zeros is passed over.
+      for (std::ptrdiff_t c = 5; c < rows; ++c)
+        for (std::ptrdiff_t k = 0; k < depth / 2; ++k) B[at(k * rows + c)] = 0.0;
       auto C = numbers(kPanelRows * columns);
       auto expected = C;
       for (std::ptrdiff_t c = 0; c < columns; ++c) {
         for (std::ptrdiff_t r = 0; r < kPanelRows; ++r) {
           double sum = 0.0;
           for (std::ptrdiff_t k = 0; k < depth; ++k)
-            sum += A[at(k * kPanelRows + r)] * B[at(k * stride + c)];
+            sum += A[at(k * kPanelRows + r)] * B[at(k * rows + c)];
           expected[at(c * kPanelRows + r)] += sum;
         }
       }
-      addPanelProduct(C.data(), columns, A.data(), B.data(), stride, depth);
+      const Strips strips(Eigen::Map<const Eigen::MatrixXd>(B.data(), rows, depth));
+      addPanelProduct(C.data(), columns, A.data(), strips);
       EXPECT_EQ(C, expected) << columns << " columns, depth " << depth;
     }
   }

@@ -79,7 +79,7 @@ TEST_F(RestingCovarianceTest, IsTheMatrixWhateverIsOwedAndPaid) {
   const Indices indices{0, 3, 31, 32, 64, 99, 128, 149};
   bool half_paid = false;
   for (int round = 0; round < 60; ++round) {
-    if (round % 3 == 0) owe(11);
+    if (round % 3 == 0) owe(37);
     if (round % 7 == 0) write({round, 149 - round});
     covariance.workOff();
     half_paid |= covariance.columns(indices).in_paid_panels > 0;

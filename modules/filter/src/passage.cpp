@@ -15,21 +15,21 @@ Passage::Passage(const Transfer& transfer) {
     for (Index i = 0; i < transfer.Phi.rows(); ++i)
       if (transfer.Phi(i, j) != 0.0) moves_.push_back({i, j, transfer.Phi(i, j)});
   }
-  Phi_ = transfer.Phi(Eigen::all, support_);
+  Phi_ = Strips(transfer.Phi(Eigen::all, support_).eval());
   Psi_ = transfer.Psi(support_, support_);
-  theta_ = transfer.theta(support_, Eigen::all).transpose();
+  theta_ = Strips(transfer.theta(support_, Eigen::all).transpose().eval());
 }
 
 Eigen::Matrix<double, RowPanels::kRows, 3> Passage::step(const Eigen::MatrixXd& C_support) const {
   Eigen::Matrix<double, RowPanels::kRows, 3> step =
       Eigen::Matrix<double, RowPanels::kRows, 3>::Zero();
-  addPanelProduct(step.data(), 3, C_support.data(), theta_.data(), 3, theta_.cols());
+  addPanelProduct(step.data(), C_support.data(), theta_);
   return step;
 }
 
 void Passage::carry(const RowPanels& C, Index panel, const Eigen::MatrixXd& C_support,
                     double* X) const {
-  addPanelProduct(X, Phi_.rows(), C_support.data(), Phi_.data(), Phi_.rows(), Phi_.cols());
+  addPanelProduct(X, C_support.data(), Phi_);
   RowPanels::Panel to(X, RowPanels::kRows, Phi_.rows());
   for (const Move& move : moves_) to.col(move.to) += move.factor * C.panel(panel).col(move.from);
 }

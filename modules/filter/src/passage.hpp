@@ -7,6 +7,7 @@
 
 #include "colonnade/filter/row_panels.hpp"
 #include "colonnade/filter/state.hpp"
+#include "colonnade/filter/strips.hpp"
 
 namespace colonnade {
 
@@ -39,9 +40,9 @@ class Passage {
     double factor;
   };
   std::vector<Index> support_;
-  Eigen::MatrixXd Phi_;  ///< columns of the support
+  Strips Phi_;  ///< columns of the support
   Eigen::MatrixXd Psi_;
-  Eigen::Matrix3Xd theta_;  ///< of the support, transposed
+  Strips theta_;  ///< of the support, transposed
   std::vector<Move> moves_;
 };
 

@@ -10,7 +10,7 @@ namespace colonnade {
 namespace {
 
 /// Over so many steps, unless more columns come meanwhile.
-constexpr Eigen::Index kStepsToWorkOff = 32;
+constexpr Eigen::Index kStepsToWorkOff = 128;
 
 }  // namespace
 
@@ -25,26 +25,30 @@ double RestingCovariance::operator()(Eigen::Index row, Eigen::Index column) cons
   return P_(row, column) - owed_.row(row).tail(owed).dot(owed_.row(column).tail(owed));
 }
 
-RestingCovariance::Columns RestingCovariance::columns(std::vector<Eigen::Index> ascending) const {
+RestingCovariance::Columns RestingCovariance::columns(std::vector<Eigen::Index> ascending,
+                                                      const Eigen::MatrixXd& newest) const {
   Columns columns;
-  columns.minus_owed = -owed_.rows(ascending);
+  Eigen::MatrixXd minus = -owed_.rows(ascending);
+  if (newest.size() > 0) minus.rightCols(newest.cols()) = -newest;
+  const auto count = static_cast<Eigen::Index>(ascending.size());
   columns.in_paid_panels =
       std::count_if(ascending.begin(), ascending.end(),
                     [&](Eigen::Index index) { return RowPanels::panelOf(index) < panels_done_; });
+  columns.minus_paying = Strips(minus.leftCols(paying_));
+  columns.minus_unpaid = Strips(minus.leftCols(paying_).bottomRows(count - columns.in_paid_panels));
+  columns.minus_later = Strips(minus.rightCols(minus.cols() - paying_));
   columns.indices = std::move(ascending);
   return columns;
 }
 
 void RestingCovariance::readRows(Eigen::Index panel, const Columns& columns, double* to) const {
   P_.readRows(panel, columns.indices, to);
-  const auto count = static_cast<Eigen::Index>(columns.indices.size());
-  const auto subtract = [&](Eigen::Index first, Eigen::Index cols, Eigen::Index skipped) {
-    addPanelProduct(to + skipped * SymmetricPanels::kRows, count - skipped,
-                    owed_.column(panel, first), columns.minus_owed.data() + first * count + skipped,
-                    count, cols);
-  };
-  subtract(paying_, owed_.cols() - paying_, 0);
-  subtract(0, paying_, panel < panels_done_ ? columns.in_paid_panels : 0);
+  addPanelProduct(to, owed_.column(panel, paying_), columns.minus_later);
+  if (panel < panels_done_)
+    addPanelProduct(to + columns.in_paid_panels * SymmetricPanels::kRows, owed_.column(panel, 0),
+                    columns.minus_unpaid);
+  else
+    addPanelProduct(to, owed_.column(panel, 0), columns.minus_paying);
 }
 
 Eigen::Index RestingCovariance::owe(Eigen::Index cols) {
@@ -54,27 +58,40 @@ Eigen::Index RestingCovariance::owe(Eigen::Index cols) {
 }
 
 void RestingCovariance::forgive(std::span<const Eigen::Index> rows) {
-  for (const Eigen::Index row : rows) owed_.row(row).setZero();
+  for (const Eigen::Index row : rows) {
+    owed_.row(row).setZero();
+    if (row < account_.rows()) account_.setZero(row);
+  }
 }
 
-void RestingCovariance::pay() { P_.subtractSquare(panels_done_++, owed_, paying_); }
+void RestingCovariance::openAccount() {
+  paying_ = owed_.cols();
+  account_.clear(paying_, P_.panels() * RowPanels::kRows);
+}
+
+void RestingCovariance::pay() {
+  const auto D = owed_.panel(panels_done_).leftCols(paying_);
+  account_.growRows((panels_done_ + 1) * RowPanels::kRows);
+  account_.write(panels_done_ * RowPanels::kRows, D);
+  P_.subtractProduct(panels_done_++, D, account_);
+}
 
 void RestingCovariance::closeAccount() {
   owed_.dropFirstCols(paying_);
+  account_.clear(0, 0);
   paying_ = panels_done_ = 0;
 }
 
 void RestingCovariance::settle() {
-  for (int account = 0; account < 2; ++account) {
-    while (paying_ > 0 && panels_done_ < P_.panels()) pay();
+  while (owed_.cols() > 0) {
+    if (paying_ == 0) openAccount();
+    while (panels_done_ < P_.panels()) pay();
     closeAccount();
-    paying_ = owed_.cols();
   }
-  paying_ = 0;
 }
 
 void RestingCovariance::workOff() {
-  if (paying_ == 0 && owed_.cols() >= kColumnsTogether) paying_ = owed_.cols();
+  if (paying_ == 0 && owed_.cols() >= kColumnsTogether) openAccount();
   if (paying_ == 0) return;
   // Panel k has k + 1 times the work of the first.
   const Eigen::Index panels = P_.panels();

@@ -244,15 +244,15 @@ void RestingMap::exchange(State& state, const std::vector<LandmarkId>& active, b
     At = gain(*passage, negligible);
   }
   const Index first_owed = P_.owe(At.rows());
+  const Strips At_strips(At);
 
   const Indices rows_woken = indicesOf(woken);
   const Eigen::MatrixXd C_in = C_.rows(rows_woken);
   const Entering in = entering(std::move(woken), state, C_in);
   const auto n_in = in.x.size();
-  RestingCovariance::Columns columns_in = P_.columns(in.rows);
-  if (passage && n_in > 0)
-    columns_in.minus_owed.rightCols(At.rows()) =
-        -productOfRows(C_in(Eigen::all, passage->support()), At);
+  Eigen::MatrixXd newest_in(n_in, At.rows());
+  if (passage) newest_in = productOfRows(C_in(Eigen::all, passage->support()), At);
+  const RestingCovariance::Columns columns_in = P_.columns(in.rows, newest_in);
 
   // What leaves the state takes the slots of what enters it: the same lines of memory are read and
   // written.
@@ -297,8 +297,7 @@ void RestingMap::exchange(State& state, const std::vector<LandmarkId>& active, b
     if (passage) {
       passage->gather(C_, panel, C_support);
       step.middleRows<kRows>(panel * kRows) = passage->step(C_support);
-      addPanelProduct(P_.owed().column(panel, first_owed), At.rows(), C_support.data(), At.data(),
-                      At.rows(), At.cols());
+      addPanelProduct(P_.owed().column(panel, first_owed), C_support.data(), At_strips);
       const Index count = std::min(kRows, variance_.size() - panel * kRows);
       variance_.segment(panel * kRows, count) -=
           P_.owed().panel(panel).rightCols(At.rows()).topRows(count).rowwise().squaredNorm();

@@ -48,11 +48,11 @@ void SymmetricPanels::writeRows(Eigen::Index panel, std::span<const Eigen::Index
   }
 }
 
-void SymmetricPanels::subtractSquare(Eigen::Index panel, const RowPanels& D, Eigen::Index cols) {
+void SymmetricPanels::subtractProduct(Eigen::Index panel,
+                                      const Eigen::Ref<const Eigen::MatrixXd>& A, const Strips& B) {
   static_assert(kRows == kPanelRows);
-  const Eigen::MatrixXd A = -D.panel(panel).leftCols(cols);
-  for (Eigen::Index other = 0; other <= panel; ++other)
-    addPanelProduct(tile(panel, other * kRows), kRows, A.data(), D.column(other, 0), kRows, cols);
+  const Eigen::MatrixXd minus_A = -A;
+  addPanelProduct(tile(panel, 0), (panel + 1) * kRows, minus_A.data(), B);
 }
 
 }  // namespace colonnade

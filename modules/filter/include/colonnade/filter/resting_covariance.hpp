@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "colonnade/filter/row_panels.hpp"
+#include "colonnade/filter/strips.hpp"
 #include "colonnade/filter/symmetric_panels.hpp"
 
 namespace colonnade {
@@ -24,10 +25,14 @@ class RestingCovariance {
   /// Some columns, to be read panel by panel. Outlives no change of what is owed.
   struct Columns {
     std::vector<Eigen::Index> indices;  ///< ascending
-    Eigen::MatrixXd minus_owed;         ///< their rows of D, with the sign turned
     Eigen::Index in_paid_panels = 0;    ///< so many of the first lie in panels already paid
+    /// Their rows of D, with the sign turned: the columns that are being paid, ...
+    Strips minus_paying;
+    Strips minus_unpaid;  ///< ... the same but for what lies in panels already paid, ...
+    Strips minus_later;   ///< ... and all other columns.
   };
-  Columns columns(std::vector<Eigen::Index> ascending) const;
+  /// `newest`: their rows of the last columns of D, where those are not filled in yet.
+  Columns columns(std::vector<Eigen::Index> ascending, const Eigen::MatrixXd& newest = {}) const;
   /// The rows of one panel: SymmetricPanels::kRows x indices.size(), by columns.
   void readRows(Eigen::Index panel, const Columns& columns, double* to) const;
   void writeRows(Eigen::Index panel, std::span<const Eigen::Index> columns, const double* from) {
@@ -45,15 +50,18 @@ class RestingCovariance {
   void settle();
 
  private:
+  void openAccount();
   void pay();
   void closeAccount();
 
   SymmetricPanels P_;
-  /// So many columns of the debt are paid together: P is passed through once for all of them.
-  static constexpr Eigen::Index kColumnsTogether = 96;
+  /// So many columns of the debt are paid together. Until then they cost time only where columns of
+  /// P are read that were not written since.
+  static constexpr Eigen::Index kColumnsTogether = 256;
   RowPanels owed_{kColumnsTogether + 32};  ///< D
   Eigen::Index paying_ = 0;                ///< so many of its first columns are paid ...
   Eigen::Index panels_done_ = 0;           ///< ... in so many of the first panels
+  Strips account_;                         ///< those columns of those panels
 };
 
 }  // namespace colonnade

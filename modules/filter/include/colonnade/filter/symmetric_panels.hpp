@@ -9,6 +9,7 @@
 
 #include "colonnade/base/memory.hpp"
 #include "colonnade/filter/row_panels.hpp"
+#include "colonnade/filter/strips.hpp"
 
 namespace colonnade {
 
@@ -26,8 +27,10 @@ class SymmetricPanels {
   void readRows(Eigen::Index panel, std::span<const Eigen::Index> columns, double* to) const;
   /// The same entries, and with them those across the diagonal, become the values `from`.
   void writeRows(Eigen::Index panel, std::span<const Eigen::Index> columns, const double* from);
-  /// Takes D D^T from one panel, D the first `cols` columns of a matrix.
-  void subtractSquare(Eigen::Index panel, const RowPanels& D, Eigen::Index cols);
+  /// Takes A B^T from one panel, its triangle and the tile on the diagonal; B has as many rows at
+  /// least.
+  void subtractProduct(Eigen::Index panel, const Eigen::Ref<const Eigen::MatrixXd>& A,
+                       const Strips& B);
 
  private:
   /// So many panels lie in memory together, each as wide as the last of them.
