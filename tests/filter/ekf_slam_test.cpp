@@ -65,6 +65,51 @@ TEST(EkfSlam, JointCorrectionIsTheTextbookOne) {
   EXPECT_LT((state.P - P).cwiseAbs().maxCoeff(), 1e-12);
 }
 
+TEST(EkfSlam, InnovationsTakeOfTheCovarianceOnlyWhatTheySpeakOf) {
+  const State state = afterSomeSteps(true).state();
+  SparseJacobian H(3);
+  H.add(1, 5, Eigen::MatrixXd{{0.4, 0.9}, {-0.6, 0.2}});
+  H.add(0, 9, Eigen::MatrixXd{{0.7, -0.1}});
+  H.add(0, 0, Eigen::MatrixXd{{0.1, -0.2, 0.5}, {1.0, 0.3, -0.7}, {-0.3, 0.8, 0.2}});
+  const Eigen::MatrixXd whole = times(H, timesTransposed(state.P, H));
+  EXPECT_LT((bothSides(H, state.P) - whole).cwiseAbs().maxCoeff(), 1e-15);
+}
+
+/// Whatever is unsure, and however it hangs together.
+TEST(EkfSlam, AFirstLookLosesNothingWithinTheBound) {
+  std::mt19937 random(5);
+  const auto gauss = [&](double sigma) {
+    return std::normal_distribution<double>(0.0, sigma)(random);
+  };
+  constexpr double kBound = 9.2;
+  int passed_over = 0;
+  for (int trial = 0; trial < 20000; ++trial) {
+    EkfSlam filter(FilterOptions{});
+    const double sigma_m = std::exp(gauss(1.0)) * 0.1, sigma = std::exp(gauss(1.0)) * 0.03;
+    filter.predict({1.0, 0.5, 0.3},
+                   Eigen::Vector3d(sigma_m, sigma_m, sigma).cwiseAbs2().asDiagonal());
+    Measurement m;
+    m.kind = LandmarkKind::kPillarEdge;
+    m.p_robot_camera = {0.2, -0.1};
+    m.z = Eigen::Vector2d(gauss(1.0), 1.0 + std::abs(gauss(3.0)));
+    m.R = Eigen::Vector2d(1e-4, 1e-2).asDiagonal();
+    const auto landmark = filter.addLandmark(m);
+    ASSERT_TRUE(landmark);
+    // With what was seen from here the landmark's error goes along; with another drive it does not.
+    if (trial % 2 == 1)
+      filter.predict({gauss(0.5), gauss(0.5), gauss(0.3)},
+                     Eigen::Vector3d(sigma_m, sigma_m, sigma).cwiseAbs2().asDiagonal());
+    m.z += Eigen::Vector2d(gauss(2.0 * sigma), gauss(2.0 * sigma_m));
+    if (!(m.z(1) > 0.0)) continue;
+    const auto innovation = filter.innovation(*landmark, m);
+    ASSERT_TRUE(innovation);
+    if (filter.mayBeWithin(*landmark, m, kBound)) continue;
+    ++passed_over;
+    EXPECT_GT(innovation->distance2, kBound) << trial;
+  }
+  EXPECT_GT(passed_over, 500);
+}
+
 TEST(EkfSlam, TransportIsTheCongruenceWithM) {
   EkfSlam filter = afterSomeSteps(true);
   State state = filter.state();

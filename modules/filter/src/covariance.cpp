@@ -134,6 +134,18 @@ Eigen::MatrixXd times(const SparseJacobian& H, const Eigen::MatrixXd& A) {
   return HA;
 }
 
+Eigen::MatrixXd bothSides(const SparseJacobian& H, const Eigen::MatrixXd& P) {
+  Eigen::MatrixXd HPHt = Eigen::MatrixXd::Zero(H.rows, H.rows);
+  for (const auto& a : H.parts) {
+    Eigen::MatrixXd PHt = Eigen::MatrixXd::Zero(a.H.cols(), H.rows);
+    for (const auto& b : H.parts)
+      PHt.middleCols(b.row, b.H.rows()) +=
+          P.block(a.column, b.column, a.H.cols(), b.H.cols()).lazyProduct(b.H.transpose());
+    HPHt.middleRows(a.row, a.H.rows()) += a.H.lazyProduct(PHt);
+  }
+  return HPHt;
+}
+
 bool correct(State& state, const SparseJacobian& H, const Eigen::VectorXd& nu,
              const Eigen::MatrixXd& R, bool invariant, Eigen::Index fixed) {
   const Eigen::MatrixXd PHt = timesTransposed(state.P, H);

@@ -63,7 +63,7 @@ std::optional<double> mahalanobis2(const Eigen::VectorXd& nu, const Eigen::Matri
 }
 
 Eigen::MatrixXd innovationCovariance(const State& state, const Stack& s) {
-  return times(s.H, timesTransposed(state.P, s.H)) + s.R;
+  return bothSides(s.H, state.P) + s.R;
 }
 
 }  // namespace
@@ -102,6 +102,25 @@ std::optional<Innovation> EkfSlam::innovation(LandmarkId landmark,
   innovation.within_gate =
       *distance2 <= chiSquareQuantile(options_.gate_probability, static_cast<int>(s.nu.size()));
   return innovation;
+}
+
+bool EkfSlam::mayBeWithin(LandmarkId landmark, const Measurement& measurement,
+                          double distance2) const {
+  const Block* block = state_.find(landmark);
+  if (!block || block->block_kind != BlockKind::kPoint || !measurement.hasRange()) return true;
+  // Twice for Var(a - b) <= 2 (Var a + Var b), twice for what is not linear.
+  constexpr double kReserve = 4.0;
+  const double range = measurement.z(1);
+  const Eigen::Vector2d p_robot =
+      range * Eigen::Vector2d(std::cos(measurement.z(0)), std::sin(measurement.z(0))) +
+      measurement.p_robot_camera;
+  const double apart2 =
+      (transform(pose(), p_robot) - state_.values(*block).head<2>()).squaredNorm();
+  const auto& P = state_.P;
+  const double spread2 = P(0, 0) + P(1, 1) + P(block->offset, block->offset) +
+                         P(block->offset + 1, block->offset + 1) + p_robot.squaredNorm() * P(2, 2) +
+                         range * range * measurement.R(0, 0) + measurement.R(1, 1);
+  return !(apart2 > kReserve * distance2 * spread2);
 }
 
 std::optional<double> EkfSlam::jointDistance2(std::span<const Match> matches) const {
@@ -202,8 +221,7 @@ std::optional<EkfSlam::Parallax> EkfSlam::parallax(LandmarkId clone, const Measu
   const TwoViews views = lookTwice(state_, *block, first, now);
   const auto& t = views.triangulation;
   if (!t.block.allFinite()) return std::nullopt;
-  const Eigen::Matrix4d P =
-      times(views.J_state, timesTransposed(state_.P, views.J_state)) + views.bearing_covariance;
+  const Eigen::Matrix4d P = bothSides(views.J_state, state_.P) + views.bearing_covariance;
   return Parallax{t.baseline_m, t.parallax, t.block(3), std::sqrt(std::max(0.0, P(3, 3)))};
 }
 
@@ -254,7 +272,7 @@ bool EkfSlam::isFixed(LandmarkId block) const {
 }
 
 Eigen::MatrixXd EkfSlam::covarianceOf(const SparseJacobian& H) const {
-  return times(H, timesTransposed(state_.P, H));
+  return bothSides(H, state_.P);
 }
 
 bool EkfSlam::constrain(const SparseJacobian& H, const Eigen::VectorXd& nu,
@@ -316,7 +334,7 @@ std::optional<Innovation> EkfSlam::axisInnovation(LandmarkId axis, double direct
   if (!block || !std::isfinite(direction) || !std::isfinite(sigma)) return std::nullopt;
   const auto predicted = predictAxis(pose(), state_.x(block->offset));
   const SparseJacobian H = axisJacobian(*block, predicted);
-  const double S = times(H, timesTransposed(state_.P, H))(0, 0) + sigma * sigma;
+  const double S = bothSides(H, state_.P)(0, 0) + sigma * sigma;
   if (!(S > 0.0)) return std::nullopt;
   Innovation innovation;
   innovation.nu.resize(1);

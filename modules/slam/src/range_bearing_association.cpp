@@ -33,12 +33,14 @@ Pairings pair(std::span<const OpenReading> readings, const EkfSlam& filter,
   Pairings pairings{std::vector<std::vector<Pairing>>(readings.size()),
                     std::vector<std::vector<LandmarkId>>(readings.size())};
   for (std::size_t r = 0; r < readings.size(); ++r) {
+    const double gate = chiSquareQuantile(options.gate_probability,
+                                          static_cast<int>(readings[r].measurement.z.size()));
+    const double around = std::max(1.0, options.near_factor * options.near_factor) * gate;
     for (const LandmarkId id : readings[r].allowed) {
+      if (!filter.mayBeWithin(id, readings[r].measurement, around)) continue;
       const auto innovation = filter.innovation(id, readings[r].measurement);
       if (!innovation) continue;
       const double d2 = innovation->distance2;
-      const double gate =
-          chiSquareQuantile(options.gate_probability, static_cast<int>(innovation->nu.size()));
       if (d2 <= options.near_factor * options.near_factor * gate) pairings.around[r].push_back(id);
       if (d2 > gate) continue;
       const double rank = options.likelihood ? d2 + std::log(innovation->S.determinant()) : d2;

@@ -2,20 +2,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "range_bearing_beam.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <set>
 
+#include "colonnade/base/angle.hpp"
 #include "colonnade/filter/gate.hpp"
+#include "colonnade/filter/measurement_models.hpp"
 
 namespace colonnade {
 namespace {
 
 /// Histories less likely than the best one by this factor (natural logarithm) are dropped.
 constexpr double kLeastLogWeight = -20.0;
+/// In a map that stays as it is few histories differ, and patience costs little.
+constexpr double kLeastLogWeightInFixedMap = -40.0;
 /// Decisions after which two histories that agree are one.
 constexpr int kMemory = 60;
+/// Nothing farther off than this is within any gate of a map worth the name.
+constexpr double kFirstLook2 = 16.0;
+/// In a map that stays as it is a history is a pose: one that a likelier one agrees with to so many
+/// squared deviations of its own goes.
+constexpr double kAlike2 = 0.5;
 
 enum class Choice { kLandmark, kBirth, kOutlier };
 
@@ -25,6 +35,40 @@ struct Child {
   LandmarkId landmark{};
   double log_weight = 0.0;
 };
+
+/// What a history says of the robot.
+struct PoseEstimate {
+  Pose2 mean;
+  Eigen::Matrix3d covariance;
+};
+
+bool agrees(const PoseEstimate& estimate, const PoseEstimate& with) {
+  const Eigen::LLT<Eigen::Matrix3d> llt(estimate.covariance);
+  if (llt.info() != Eigen::Success) return false;
+  const Eigen::Vector3d apart(estimate.mean.x - with.mean.x, estimate.mean.y - with.mean.y,
+                              wrapAngle(estimate.mean.phi - with.mean.phi));
+  return apart.dot(llt.solve(apart)) < kAlike2;
+}
+
+/// What a reading of a landmark would make of the robot.
+PoseEstimate poseAfter(const EkfSlam& filter, LandmarkId landmark, const Measurement& measurement,
+                       double noise_scale) {
+  const State& state = filter.state();
+  const Block& block = *state.find(landmark);
+  const auto predicted =
+      predictMeasurement(filter.pose(), block.block_kind, state.values(block), measurement);
+  const Eigen::Matrix3d P = filter.poseCovariance();
+  const Eigen::MatrixXd P_block = state.P.block(0, block.offset, 3, block.size());
+  const Eigen::MatrixXd PHt =
+      P * predicted.H_robot.transpose() + P_block * predicted.H_block.transpose();
+  const Eigen::MatrixXd S =
+      filter.innovation(landmark, measurement)->S + (noise_scale - 1.0) * noiseOf(measurement);
+  const Eigen::MatrixXd K = S.llt().solve(PHt.transpose()).transpose();
+  const Eigen::Vector3d dx = K * innovationOf(measurement, predicted.z);
+  const Pose2 mean = filter.pose();
+  return {{mean.x + dx.x(), mean.y + dx.y(), wrapAngle(mean.phi + dx.z())},
+          P - K * PHt.transpose()};
+}
 
 /// Log density of the innovation.
 double logLikelihood(const Innovation& innovation) {
@@ -41,14 +85,17 @@ class Beam {
   void advance(const LandmarkReading& reading, const ReadingFrame& frame,
                std::vector<std::vector<std::optional<LandmarkId>>>& decided,
                std::vector<std::vector<bool>>& founded, std::vector<std::vector<Event>>& events) {
-    const auto children = bestChildren(reading);
+    const auto children = bestChildren(reading, frame.noise_scale);
+    std::vector<std::size_t> heirs(hypotheses_.size(), 0);
+    for (const Child& child : children) ++heirs[child.parent];
     std::vector<RangeBearingHypothesis> next;
     std::vector<std::vector<std::optional<LandmarkId>>> next_decided;
     std::vector<std::vector<bool>> next_founded;
     std::vector<std::vector<Event>> next_events;
     next.reserve(children.size());
     for (const Child& child : children) {
-      next.push_back(hypotheses_[child.parent]);
+      auto& parent = hypotheses_[child.parent];
+      next.push_back(--heirs[child.parent] > 0 ? parent : std::move(parent));
       next_events.push_back(events[child.parent]);
       next_decided.push_back(decided[child.parent]);
       next_founded.push_back(founded[child.parent]);
@@ -64,7 +111,7 @@ class Beam {
   }
 
  private:
-  std::vector<Child> bestChildren(const LandmarkReading& reading) const {
+  std::vector<Child> bestChildren(const LandmarkReading& reading, double noise_scale) const {
     const double view =
         (reading.measurement.hasRange() ? options_.view_range_m : 1.0) * options_.view_angle;
     const double seen = std::log(1.0 - options_.outlier_share - options_.birth_share);
@@ -77,7 +124,7 @@ class Beam {
       if (hypothesis.grows() && !hypothesis.landmarkOf(reading.identity))
         children.push_back({h, Choice::kBirth, {}, weight + std::log(options_.birth_share / view)});
       for (const LandmarkId id : hypothesis.allowed(reading.identity)) {
-        if (!mayBe(hypothesis.filter, id, reading.measurement)) continue;
+        if (!hypothesis.filter.mayBeWithin(id, reading.measurement, kFirstLook2)) continue;
         const auto innovation = hypothesis.filter.innovation(id, reading.measurement);
         if (innovation && innovation->within_gate)
           children.push_back(
@@ -86,31 +133,32 @@ class Beam {
     }
     std::stable_sort(children.begin(), children.end(),
                      [](const auto& a, const auto& b) { return a.log_weight > b.log_weight; });
-    const double least = children.front().log_weight + kLeastLogWeight;
-    std::size_t kept = 1;
-    while (kept < children.size() && kept < static_cast<std::size_t>(options_.hypotheses) &&
-           children[kept].log_weight >= least)
-      ++kept;
-    children.resize(kept);
-    return children;
+    const double least =
+        children.front().log_weight +
+        (hypotheses_.front().grows() ? kLeastLogWeight : kLeastLogWeightInFixedMap);
+    std::vector<Child> best;
+    std::vector<PoseEstimate> said;
+    for (const Child& child : children) {
+      if (best.size() == static_cast<std::size_t>(options_.hypotheses) || child.log_weight < least)
+        break;
+      if (!hypotheses_[child.parent].grows()) {
+        const PoseEstimate says = poseOf(child, reading, noise_scale);
+        if (std::any_of(said.begin(), said.end(),
+                        [&](const auto& likelier) { return agrees(says, likelier); }))
+          continue;
+        said.push_back(says);
+      }
+      best.push_back(child);
+    }
+    return best;
   }
 
-  /// A cheap look before the innovation is computed: nothing that far off is within any gate of a
-  /// map worth the name.
-  bool mayBe(const EkfSlam& filter, LandmarkId id, const Measurement& measurement) const {
-    constexpr double kSigmas = 8.0;
-    const Block& block = *filter.state().find(id);
-    if (block.block_kind != BlockKind::kPoint || !measurement.hasRange()) return true;
-    const auto& P = filter.state().P;
-    const double range = measurement.z(1);
-    const Eigen::Vector2d p_robot =
-        range * Eigen::Vector2d(std::cos(measurement.z(0)), std::sin(measurement.z(0))) +
-        measurement.p_robot_camera;
-    const double apart = (transform(filter.pose(), p_robot) - filter.state().values(block)).norm();
-    const double spread = P(0, 0) + P(1, 1) + P(block.offset, block.offset) +
-                          P(block.offset + 1, block.offset + 1) +
-                          range * range * (P(2, 2) + measurement.R(0, 0)) + measurement.R(1, 1);
-    return apart < kSigmas * std::sqrt(spread);
+  PoseEstimate poseOf(const Child& child, const LandmarkReading& reading,
+                      double noise_scale) const {
+    const EkfSlam& filter = hypotheses_[child.parent].filter;
+    if (child.choice == Choice::kLandmark)
+      return poseAfter(filter, child.landmark, reading.measurement, noise_scale);
+    return {filter.pose(), filter.poseCovariance()};
   }
 
   static std::optional<LandmarkId> realize(const Child& child, const LandmarkReading& reading,

@@ -34,6 +34,8 @@ struct SparseJacobian {
 
 /// P H^T (n x m) without touching the zeros of H.
 Eigen::MatrixXd timesTransposed(const Eigen::MatrixXd& P, const SparseJacobian& H);
+/// H P H^T; reads of P only what H speaks of.
+Eigen::MatrixXd bothSides(const SparseJacobian& H, const Eigen::MatrixXd& P);
 /// H A (m x k) for a dense A of n rows.
 Eigen::MatrixXd times(const SparseJacobian& H, const Eigen::MatrixXd& A);
 

@@ -59,6 +59,9 @@ class EkfSlam {
 
   /// Nothing for an unknown landmark, a non-finite measurement or a singular S.
   std::optional<Innovation> innovation(LandmarkId landmark, const Measurement& measurement) const;
+  /// A cheap look before innovation(): false only where its distance2 would be larger, as far as
+  /// positions tell (a point and a measurement with range).
+  bool mayBeWithin(LandmarkId landmark, const Measurement& measurement, double distance2) const;
 
   /// The squared Mahalanobis distance of all matches together; nothing when S is singular.
   std::optional<double> jointDistance2(std::span<const Match> matches) const;
