@@ -46,6 +46,27 @@ TEST(PanelProduct, GivesTheBitsOfSumsTakenOneByOne) {
   }
 }
 
+/// As those of panels are, which six does not divide.
+TEST(PanelProduct, TakesStripsThatWereWrittenInParts) {
+  const Eigen::MatrixXd A = Eigen::MatrixXd::Random(kPanelRows, 9);
+  Eigen::MatrixXd B = Eigen::MatrixXd::Random(14, 9);
+  B.block(8, 0, 6, 4).setZero();
+  B.row(2).setZero();
+  Strips strips;
+  strips.clear(9, 14);
+  strips.growRows(8);
+  strips.write(0, B.topRows(8));
+  strips.growRows(14);
+  strips.write(8, B.bottomRows(6));
+  for (int round = 0; round < 2; ++round) {
+    Eigen::MatrixXd C = Eigen::MatrixXd::Zero(kPanelRows, 14);
+    addPanelProduct(C.data(), A.data(), strips);
+    EXPECT_LT((C - A * B.transpose()).cwiseAbs().maxCoeff(), 1e-14);
+    B.row(7).setZero();
+    strips.setZero(7);
+  }
+}
+
 TEST(PanelProduct, MultipliesRowsWhateverTheSizes) {
   for (const int rows : {1, 32, 75}) {
     const Eigen::MatrixXd A = Eigen::MatrixXd::Random(rows, 9), B = Eigen::MatrixXd::Random(7, 9);

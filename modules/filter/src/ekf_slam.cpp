@@ -108,7 +108,8 @@ bool EkfSlam::mayBeWithin(LandmarkId landmark, const Measurement& measurement,
                           double distance2) const {
   const Block* block = state_.find(landmark);
   if (!block || block->block_kind != BlockKind::kPoint || !measurement.hasRange()) return true;
-  // Twice for Var(a - b) <= 2 (Var a + Var b), twice for what is not linear.
+  // Thrice for three errors that may hang together (place and heading of the robot, landmark), the
+  // rest for what is not linear.
   constexpr double kReserve = 4.0;
   const double range = measurement.z(1);
   const Eigen::Vector2d p_robot =
@@ -117,10 +118,27 @@ bool EkfSlam::mayBeWithin(LandmarkId landmark, const Measurement& measurement,
   const double apart2 =
       (transform(pose(), p_robot) - state_.values(*block).head<2>()).squaredNorm();
   const auto& P = state_.P;
+  const MeasurementCovariance R = noiseOf(measurement);
   const double spread2 = P(0, 0) + P(1, 1) + P(block->offset, block->offset) +
                          P(block->offset + 1, block->offset + 1) + p_robot.squaredNorm() * P(2, 2) +
-                         range * range * measurement.R(0, 0) + measurement.R(1, 1);
+                         range * range * R(0, 0) + R(1, 1);
   return !(apart2 > kReserve * distance2 * spread2);
+}
+
+RobotEstimate EkfSlam::robotAfter(const Match& match, double noise_scale) const {
+  RobotEstimate robot{pose(), poseCovariance()};
+  if (!state_.find(match.landmark) || !isUsable(match.measurement)) return robot;
+  const Stack s = stack(state_, {&match, 1});
+  const Eigen::LLT<Eigen::MatrixXd> llt(bothSides(s.H, state_.P) + noise_scale * s.R);
+  if (llt.info() != Eigen::Success) return robot;
+  Eigen::MatrixXd PHt = Eigen::MatrixXd::Zero(3, s.H.rows);
+  for (const auto& part : s.H.parts)
+    PHt.middleCols(part.row, part.H.rows()) +=
+        state_.P.block(0, part.column, 3, part.H.cols()) * part.H.transpose();
+  const Eigen::Vector3d x = robot.T_world_robot.vector() + PHt * llt.solve(s.nu);
+  robot.T_world_robot = {x(0), x(1), wrapAngle(x(2))};
+  robot.covariance -= PHt * llt.solve(PHt.transpose());
+  return robot;
 }
 
 std::optional<double> EkfSlam::jointDistance2(std::span<const Match> matches) const {

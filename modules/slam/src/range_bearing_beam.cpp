@@ -10,7 +10,6 @@
 
 #include "colonnade/base/angle.hpp"
 #include "colonnade/filter/gate.hpp"
-#include "colonnade/filter/measurement_models.hpp"
 
 namespace colonnade {
 namespace {
@@ -21,11 +20,11 @@ constexpr double kLeastLogWeight = -20.0;
 constexpr double kLeastLogWeightInFixedMap = -40.0;
 /// Decisions after which two histories that agree are one.
 constexpr int kMemory = 60;
-/// Nothing farther off than this is within any gate of a map worth the name.
-constexpr double kFirstLook2 = 16.0;
-/// In a map that stays as it is a history is a pose: one that a likelier one agrees with to so many
-/// squared deviations of its own goes.
+/// In a map that stays as it is a history is a pose, once its frame is over: one that a likelier
+/// one agrees with to so many squared deviations of its own goes, unless it is far less sure: a
+/// robot that may be anywhere is another one than a robot that is here.
 constexpr double kAlike2 = 0.5;
+constexpr double kFarLessSure = 64.0;  ///< ratio of the determinants
 
 enum class Choice { kLandmark, kBirth, kOutlier };
 
@@ -36,38 +35,20 @@ struct Child {
   double log_weight = 0.0;
 };
 
-/// What a history says of the robot.
-struct PoseEstimate {
-  Pose2 mean;
-  Eigen::Matrix3d covariance;
+/// What a history says: where the robot is, and which landmarks of the frame are no longer free.
+struct Account {
+  RobotEstimate robot;
+  std::vector<LandmarkId> used;  ///< ascending
 };
 
-bool agrees(const PoseEstimate& estimate, const PoseEstimate& with) {
-  const Eigen::LLT<Eigen::Matrix3d> llt(estimate.covariance);
-  if (llt.info() != Eigen::Success) return false;
-  const Eigen::Vector3d apart(estimate.mean.x - with.mean.x, estimate.mean.y - with.mean.y,
-                              wrapAngle(estimate.mean.phi - with.mean.phi));
-  return apart.dot(llt.solve(apart)) < kAlike2;
-}
-
-/// What a reading of a landmark would make of the robot.
-PoseEstimate poseAfter(const EkfSlam& filter, LandmarkId landmark, const Measurement& measurement,
-                       double noise_scale) {
-  const State& state = filter.state();
-  const Block& block = *state.find(landmark);
-  const auto predicted =
-      predictMeasurement(filter.pose(), block.block_kind, state.values(block), measurement);
-  const Eigen::Matrix3d P = filter.poseCovariance();
-  const Eigen::MatrixXd P_block = state.P.block(0, block.offset, 3, block.size());
-  const Eigen::MatrixXd PHt =
-      P * predicted.H_robot.transpose() + P_block * predicted.H_block.transpose();
-  const Eigen::MatrixXd S =
-      filter.innovation(landmark, measurement)->S + (noise_scale - 1.0) * noiseOf(measurement);
-  const Eigen::MatrixXd K = S.llt().solve(PHt.transpose()).transpose();
-  const Eigen::Vector3d dx = K * innovationOf(measurement, predicted.z);
-  const Pose2 mean = filter.pose();
-  return {{mean.x + dx.x(), mean.y + dx.y(), wrapAngle(mean.phi + dx.z())},
-          P - K * PHt.transpose()};
+bool agrees(const Account& account, const Account& likelier) {
+  const auto& [pose, covariance] = account.robot;
+  const Eigen::LLT<Eigen::Matrix3d> llt(covariance);
+  if (account.used != likelier.used || llt.info() != Eigen::Success) return false;
+  const Pose2& other = likelier.robot.T_world_robot;
+  const Eigen::Vector3d apart(pose.x - other.x, pose.y - other.y, wrapAngle(pose.phi - other.phi));
+  return apart.dot(llt.solve(apart)) < kAlike2 &&
+         covariance.determinant() < kFarLessSure * likelier.robot.covariance.determinant();
 }
 
 /// Log density of the innovation.
@@ -115,6 +96,9 @@ class Beam {
     const double view =
         (reading.measurement.hasRange() ? options_.view_range_m : 1.0) * options_.view_angle;
     const double seen = std::log(1.0 - options_.outlier_share - options_.birth_share);
+    const auto size = static_cast<int>(reading.measurement.z.size());
+    const double gate =
+        chiSquareQuantile(hypotheses_.front().filter.options().gate_probability, size);
     std::vector<Child> children;
     for (std::size_t h = 0; h < hypotheses_.size(); ++h) {
       const auto& hypothesis = hypotheses_[h];
@@ -124,7 +108,7 @@ class Beam {
       if (hypothesis.grows() && !hypothesis.landmarkOf(reading.identity))
         children.push_back({h, Choice::kBirth, {}, weight + std::log(options_.birth_share / view)});
       for (const LandmarkId id : hypothesis.allowed(reading.identity)) {
-        if (!hypothesis.filter.mayBeWithin(id, reading.measurement, kFirstLook2)) continue;
+        if (!hypothesis.filter.mayBeWithin(id, reading.measurement, gate)) continue;
         const auto innovation = hypothesis.filter.innovation(id, reading.measurement);
         if (innovation && innovation->within_gate)
           children.push_back(
@@ -133,32 +117,42 @@ class Beam {
     }
     std::stable_sort(children.begin(), children.end(),
                      [](const auto& a, const auto& b) { return a.log_weight > b.log_weight; });
-    const double least =
-        children.front().log_weight +
-        (hypotheses_.front().grows() ? kLeastLogWeight : kLeastLogWeightInFixedMap);
-    std::vector<Child> best;
-    std::vector<PoseEstimate> said;
-    for (const Child& child : children) {
-      if (best.size() == static_cast<std::size_t>(options_.hypotheses) || child.log_weight < least)
-        break;
-      if (!hypotheses_[child.parent].grows()) {
-        const PoseEstimate says = poseOf(child, reading, noise_scale);
-        if (std::any_of(said.begin(), said.end(),
-                        [&](const auto& likelier) { return agrees(says, likelier); }))
-          continue;
-        said.push_back(says);
-      }
-      best.push_back(child);
-    }
-    return best;
+    return kept(children, reading.measurement, noise_scale);
   }
 
-  PoseEstimate poseOf(const Child& child, const LandmarkReading& reading,
-                      double noise_scale) const {
-    const EkfSlam& filter = hypotheses_[child.parent].filter;
-    if (child.choice == Choice::kLandmark)
-      return poseAfter(filter, child.landmark, reading.measurement, noise_scale);
-    return {filter.pose(), filter.poseCovariance()};
+  /// Of children, likeliest first: not too many, none too unlikely, and in a map that stays as it
+  /// is none that says what a likelier one says.
+  std::vector<Child> kept(const std::vector<Child>& children, const Measurement& measurement,
+                          double noise_scale) const {
+    const bool fixed = !hypotheses_.front().grows();
+    const double least =
+        children.front().log_weight + (fixed ? kLeastLogWeightInFixedMap : kLeastLogWeight);
+    std::vector<Child> kept;
+    std::vector<Account> accounts;
+    for (const Child& child : children) {
+      if (child.log_weight < least) break;
+      if (fixed) {
+        Account account = accountOf(child, measurement, noise_scale);
+        if (std::any_of(accounts.begin(), accounts.end(),
+                        [&](const Account& likelier) { return agrees(account, likelier); }))
+          continue;
+        accounts.push_back(std::move(account));
+      }
+      kept.push_back(child);
+      if (kept.size() >= static_cast<std::size_t>(options_.hypotheses)) break;
+    }
+    return kept;
+  }
+
+  Account accountOf(const Child& child, const Measurement& measurement, double noise_scale) const {
+    const RangeBearingHypothesis& parent = hypotheses_[child.parent];
+    Account account{{parent.filter.pose(), parent.filter.poseCovariance()}, parent.used};
+    if (child.choice == Choice::kLandmark) {
+      account.robot = parent.filter.robotAfter({child.landmark, measurement}, noise_scale);
+      account.used.push_back(child.landmark);
+    }
+    std::sort(account.used.begin(), account.used.end());
+    return account;
   }
 
   static std::optional<LandmarkId> realize(const Child& child, const LandmarkReading& reading,

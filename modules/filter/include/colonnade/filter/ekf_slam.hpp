@@ -35,6 +35,12 @@ struct Innovation {
   bool within_gate = false;  ///< distance2 below the chi-square bound of nu's size
 };
 
+/// The robot alone.
+struct RobotEstimate {
+  Pose2 T_world_robot;
+  Eigen::Matrix3d covariance;  ///< of (x, y, phi)
+};
+
 /// EKF-SLAM of a planar robot with landmarks of several kinds in one state. Starts at the origin of
 /// the world without uncertainty. Input that is not finite, a motion covariance with a negative
 /// diagonal and an innovation covariance that is not positive definite are refused before they
@@ -62,6 +68,10 @@ class EkfSlam {
   /// A cheap look before innovation(): false only where its distance2 would be larger, as far as
   /// positions tell (a point and a measurement with range).
   bool mayBeWithin(LandmarkId landmark, const Measurement& measurement, double distance2) const;
+
+  /// What a match would make of the robot, but for the turn of the world that the invariant
+  /// correction takes along; the robot as it is when it could not be used.
+  RobotEstimate robotAfter(const Match& match, double noise_scale) const;
 
   /// The squared Mahalanobis distance of all matches together; nothing when S is singular.
   std::optional<double> jointDistance2(std::span<const Match> matches) const;

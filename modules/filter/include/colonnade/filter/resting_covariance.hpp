@@ -28,8 +28,9 @@ class RestingCovariance {
     Eigen::Index in_paid_panels = 0;    ///< so many of the first lie in panels already paid
     /// Their rows of D, with the sign turned: the columns that are being paid, ...
     Strips minus_paying;
-    Strips minus_unpaid;  ///< ... the same but for what lies in panels already paid, ...
-    Strips minus_later;   ///< ... and all other columns.
+    /// ... the same but for what lies in panels already paid (a product starts with a strip), ...
+    Strips minus_unpaid;
+    Strips minus_later;  ///< ... and all other columns.
   };
   /// `newest`: their rows of the last columns of D, where those are not filled in yet.
   Columns columns(std::vector<Eigen::Index> ascending, const Eigen::MatrixXd& newest = {}) const;
@@ -58,10 +59,10 @@ class RestingCovariance {
   /// So many columns of the debt are paid together. Until then they cost time only where columns of
   /// P are read that were not written since.
   static constexpr Eigen::Index kColumnsTogether = 256;
-  RowPanels owed_{kColumnsTogether + 32};  ///< D
-  Eigen::Index paying_ = 0;                ///< so many of its first columns are paid ...
-  Eigen::Index panels_done_ = 0;           ///< ... in so many of the first panels
-  Strips account_;                         ///< those columns of those panels
+  RowPanels owed_{32};            ///< D; grows
+  Eigen::Index paying_ = 0;       ///< so many of its first columns are paid ...
+  Eigen::Index panels_done_ = 0;  ///< ... in so many of the first panels
+  Strips account_;                ///< those columns of those panels
 };
 
 }  // namespace colonnade
