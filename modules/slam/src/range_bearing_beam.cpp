@@ -26,6 +26,10 @@ constexpr int kMemory = 60;
 constexpr double kAlike2 = 0.5;
 constexpr double kFarLessSure = 64.0;  ///< ratio of the determinants
 
+/// The states of all histories, and so many at least.
+constexpr std::size_t kMemory_bytes = std::size_t{1} << 29;
+constexpr std::size_t kFewest = 4;
+
 enum class Choice { kLandmark, kBirth, kOutlier };
 
 struct Child {
@@ -49,6 +53,15 @@ bool agrees(const Account& account, const Account& likelier) {
   const Eigen::Vector3d apart(pose.x - other.x, pose.y - other.y, wrapAngle(pose.phi - other.phi));
   return apart.dot(llt.solve(apart)) < kAlike2 &&
          covariance.determinant() < kFarLessSure * likelier.robot.covariance.determinant();
+}
+
+/// In a map that stays as it is, three times as many, since all of them differ; of large states
+/// not more than fit into the memory meant for them, though always some.
+std::size_t mostOf(const RangeBearingHypothesis& hypothesis, const RangeBearingOptions& options) {
+  const auto wanted = static_cast<std::size_t>(std::max(1, options.hypotheses));
+  const auto bytes = static_cast<std::size_t>(hypothesis.filter.state().P.size()) * sizeof(double);
+  const std::size_t room = std::max(kFewest, kMemory_bytes / std::max<std::size_t>(1, bytes));
+  return std::min(hypothesis.grows() ? wanted : 3 * wanted, room);
 }
 
 /// Log density of the innovation.
@@ -125,6 +138,7 @@ class Beam {
   std::vector<Child> kept(const std::vector<Child>& children, const Measurement& measurement,
                           double noise_scale) const {
     const bool fixed = !hypotheses_.front().grows();
+    const std::size_t most = mostOf(hypotheses_.front(), options_);
     const double least =
         children.front().log_weight + (fixed ? kLeastLogWeightInFixedMap : kLeastLogWeight);
     std::vector<Child> kept;
@@ -139,7 +153,7 @@ class Beam {
         accounts.push_back(std::move(account));
       }
       kept.push_back(child);
-      if (kept.size() >= static_cast<std::size_t>(options_.hypotheses)) break;
+      if (kept.size() >= most) break;
     }
     return kept;
   }

@@ -65,7 +65,10 @@ struct RangeBearingOptions {
     v.flag("smooth", smooth,
            "at the end find the poses and landmarks that suit the whole log best "
            "(trajectory_final.tum, landmarks.csv)");
-    v.integer("hypotheses", hypotheses, {1, 1000}, "joint histories kept side by side");
+    v.integer(
+        "hypotheses", hypotheses, {1, 1000},
+        "joint histories kept side by side; three times as many in a map that is left as it is, "
+        "fewer where they take too much memory");
     v.number("outlier_share", outlier_share, {1e-6, 0.5}, "of the readings (hypotheses)");
     v.number("birth_share", birth_share, {1e-9, 0.5},
              "of the readings that show a new landmark (hypotheses)");
