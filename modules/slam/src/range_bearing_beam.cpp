@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <span>
 
 #include "colonnade/base/angle.hpp"
 #include "colonnade/filter/gate.hpp"
@@ -39,16 +40,17 @@ struct Child {
   double log_weight = 0.0;
 };
 
-/// What a history says: where the robot is, and which landmarks of the frame are no longer free.
+/// What a history says: where the robot is, and which landmarks readings to come can no longer be
+/// of, though they might.
 struct Account {
   RobotEstimate robot;
-  std::vector<LandmarkId> used;  ///< ascending
+  std::vector<LandmarkId> taken;  ///< ascending
 };
 
 bool agrees(const Account& account, const Account& likelier) {
   const auto& [pose, covariance] = account.robot;
   const Eigen::LLT<Eigen::Matrix3d> llt(covariance);
-  if (account.used != likelier.used || llt.info() != Eigen::Success) return false;
+  if (account.taken != likelier.taken || llt.info() != Eigen::Success) return false;
   const Pose2& other = likelier.robot.T_world_robot;
   const Eigen::Vector3d apart(pose.x - other.x, pose.y - other.y, wrapAngle(pose.phi - other.phi));
   return apart.dot(llt.solve(apart)) < kAlike2 &&
@@ -76,10 +78,12 @@ class Beam {
   Beam(const RangeBearingOptions& options, std::vector<RangeBearingHypothesis>& hypotheses)
       : options_(options), hypotheses_(hypotheses) {}
 
-  void advance(const LandmarkReading& reading, const ReadingFrame& frame,
+  /// By the first of these readings of a frame; the others are still to come.
+  void advance(std::span<const LandmarkReading> readings, const ReadingFrame& frame,
                std::vector<std::vector<std::optional<LandmarkId>>>& decided,
                std::vector<std::vector<bool>>& founded, std::vector<std::vector<Event>>& events) {
-    const auto children = bestChildren(reading, frame.noise_scale);
+    const LandmarkReading& reading = readings.front();
+    const auto children = bestChildren(readings, frame.noise_scale);
     std::vector<std::size_t> heirs(hypotheses_.size(), 0);
     for (const Child& child : children) ++heirs[child.parent];
     std::vector<RangeBearingHypothesis> next;
@@ -105,13 +109,13 @@ class Beam {
   }
 
  private:
-  std::vector<Child> bestChildren(const LandmarkReading& reading, double noise_scale) const {
+  std::vector<Child> bestChildren(std::span<const LandmarkReading> readings,
+                                  double noise_scale) const {
+    const LandmarkReading& reading = readings.front();
     const double view =
         (reading.measurement.hasRange() ? options_.view_range_m : 1.0) * options_.view_angle;
     const double seen = std::log(1.0 - options_.outlier_share - options_.birth_share);
-    const auto size = static_cast<int>(reading.measurement.z.size());
-    const double gate =
-        chiSquareQuantile(hypotheses_.front().filter.options().gate_probability, size);
+    const double gate = gateOf(reading.measurement);
     std::vector<Child> children;
     for (std::size_t h = 0; h < hypotheses_.size(); ++h) {
       const auto& hypothesis = hypotheses_[h];
@@ -130,13 +134,13 @@ class Beam {
     }
     std::stable_sort(children.begin(), children.end(),
                      [](const auto& a, const auto& b) { return a.log_weight > b.log_weight; });
-    return kept(children, reading.measurement, noise_scale);
+    return kept(children, readings, noise_scale);
   }
 
   /// Of children, likeliest first: not too many, none too unlikely, and in a map that stays as it
   /// is none that says what a likelier one says.
-  std::vector<Child> kept(const std::vector<Child>& children, const Measurement& measurement,
-                          double noise_scale) const {
+  std::vector<Child> kept(const std::vector<Child>& children,
+                          std::span<const LandmarkReading> readings, double noise_scale) const {
     const bool fixed = !hypotheses_.front().grows();
     const std::size_t most = mostOf(hypotheses_.front(), options_);
     const double least =
@@ -146,7 +150,7 @@ class Beam {
     for (const Child& child : children) {
       if (child.log_weight < least) break;
       if (fixed) {
-        Account account = accountOf(child, measurement, noise_scale);
+        Account account = accountOf(child, readings, noise_scale);
         if (std::any_of(accounts.begin(), accounts.end(),
                         [&](const Account& likelier) { return agrees(account, likelier); }))
           continue;
@@ -158,14 +162,27 @@ class Beam {
     return kept;
   }
 
-  Account accountOf(const Child& child, const Measurement& measurement, double noise_scale) const {
+  /// The squared distance at which any history's filter refuses a measurement.
+  double gateOf(const Measurement& measurement) const {
+    return chiSquareQuantile(hypotheses_.front().filter.options().gate_probability,
+                             static_cast<int>(measurement.z.size()));
+  }
+
+  Account accountOf(const Child& child, std::span<const LandmarkReading> readings,
+                    double noise_scale) const {
     const RangeBearingHypothesis& parent = hypotheses_[child.parent];
     Account account{{parent.filter.pose(), parent.filter.poseCovariance()}, parent.used};
     if (child.choice == Choice::kLandmark) {
-      account.robot = parent.filter.robotAfter({child.landmark, measurement}, noise_scale);
-      account.used.push_back(child.landmark);
+      account.robot =
+          parent.filter.robotAfter({child.landmark, readings.front().measurement}, noise_scale);
+      account.taken.push_back(child.landmark);
     }
-    std::sort(account.used.begin(), account.used.end());
+    std::erase_if(account.taken, [&](const LandmarkId id) {
+      return std::none_of(readings.begin() + 1, readings.end(), [&](const auto& later) {
+        return parent.filter.mayBeWithin(id, later.measurement, gateOf(later.measurement));
+      });
+    });
+    std::sort(account.taken.begin(), account.taken.end());
     return account;
   }
 
@@ -200,8 +217,9 @@ ReadingDecisions decideByHypotheses(const ReadingFrame& frame, const RangeBearin
   std::vector<std::vector<bool>> founded(hypotheses.size());
   std::vector<std::vector<Event>> events(hypotheses.size());
   Beam beam(options, hypotheses);
-  for (const LandmarkReading& reading : frame.readings)
-    beam.advance(reading, frame, decided, founded, events);
+  const std::span<const LandmarkReading> readings(frame.readings);
+  for (std::size_t i = 0; i < readings.size(); ++i)
+    beam.advance(readings.subspan(i), frame, decided, founded, events);
   for (std::size_t h = 0; h < hypotheses.size(); ++h) hypotheses[h].endFrame(frame, events[h]);
   const double best = hypotheses.front().log_weight;
   for (auto& hypothesis : hypotheses) hypothesis.log_weight -= best;
