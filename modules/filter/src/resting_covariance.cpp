@@ -11,11 +11,16 @@ namespace {
 
 /// Over so many steps, unless more columns come meanwhile.
 constexpr Eigen::Index kStepsToWorkOff = 128;
+/// So many columns come meanwhile, at most, as a rule.
+constexpr Eigen::Index kMeanwhile = 96;
+constexpr Eigen::Index kLarge = 1024;  ///< rows
 
 }  // namespace
 
 void RestingCovariance::grow(Eigen::Index size) {
   P_.grow(size);
+  // In good time: to move the columns of a large map takes longer than a step may.
+  if (size >= kLarge) owed_.reserveCols(kColumnsTogether + kMeanwhile);
   owed_.growRows(size);
 }
 

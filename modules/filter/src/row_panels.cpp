@@ -19,17 +19,18 @@ void RowPanels::growRows(Eigen::Index rows) {
   }
 }
 
+void RowPanels::reserveCols(Eigen::Index cols) {
+  if (cols <= capacity_) return;
+  RowPanels larger(cols);
+  larger.growRows(panels_ * kRows);
+  for (Eigen::Index panel = 0; panel < panels_; ++panel)
+    std::copy_n(column(panel, 0), cols_ * kRows, larger.column(panel, 0));
+  larger.cols_ = cols_;
+  *this = std::move(larger);
+}
+
 void RowPanels::setCols(Eigen::Index cols) {
-  if (cols > capacity_) {
-    RowPanels larger;
-    larger.capacity_ = cols + cols / 4;
-    larger.growRows(panels_ * kRows);
-    for (Eigen::Index panel = 0; panel < panels_; ++panel)
-      std::copy_n(column(panel, 0), cols_ * kRows, larger.column(panel, 0));
-    larger.cols_ = cols;
-    *this = std::move(larger);
-    return;
-  }
+  if (cols > capacity_) reserveCols(cols + cols / 4);
   for (Eigen::Index panel = 0; panel < panels_ && cols > cols_; ++panel)
     std::fill_n(column(panel, cols_), (cols - cols_) * kRows, 0.0);
   cols_ = cols;

@@ -28,6 +28,8 @@ class RowPanels {
   Eigen::Index cols() const { return cols_; }
   /// Room for so many rows; new ones, up to the end of their panel, are zero.
   void growRows(Eigen::Index rows);
+  /// Room for so many columns.
+  void reserveCols(Eigen::Index cols);
   /// The first columns stay; new ones are zero.
   void setCols(Eigen::Index cols);
   /// So many columns go; the others move to the front.
