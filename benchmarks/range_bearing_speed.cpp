@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // One step of RangeBearingSlam beside one of MRPT's CRangeBearingKFSLAM2D on the same data:
-//   range_bearing_speed [--full] [--hidden] [--ours] [--localize] STEPS N...
+//   range_bearing_speed [--full] [--hidden] [--ours] [--localize] [--hypotheses] STEPS N...
 // --localize: in the map of the births, saved, loaded and left as it is; nothing of MRPT's.
 // --full: no landmark ever rests. --hidden: the readings of the steps measured bear no identity.
 // --ours: nothing of MRPT beside it; --hidden means that too.
+// --hypotheses: readings without identity by several histories side by side, not by joint
+// compatibility.
 // Fixed density (one landmark on 6 square metres). The map is born before the robot starts, forty
 // landmarks a step; then each step has eight readings with identity. Processor time, so that other
 // programs do not count.
@@ -162,6 +164,7 @@ struct Flags {
   bool hidden = false;
   bool ours = false;
   bool localize = false;
+  bool hypotheses = false;
 };
 
 /// Goes on in the map so far, which stays as it is.
@@ -178,6 +181,8 @@ void localizeIn(colonnade::RangeBearingSlam& slam) {
 void run(int landmarks, int steps, const Flags& flags) {
   colonnade::RangeBearingSlam ours;
   if (flags.full) ours.options.filter.active_landmarks = 0;
+  if (flags.hypotheses)
+    ours.options.data_assoc_method = colonnade::RangeBearingSlam::assocHypotheses;
   ours.options.std_sensor_range = kRangeSigma_m;
   ours.options.std_sensor_yaw = kBearingSigma;
   ours.reset();
@@ -222,11 +227,14 @@ int main(int argc, char** argv) {
     flags.hidden |= flag == "--hidden";
     flags.ours |= flag == "--ours";
     flags.localize |= flag == "--localize";
-    unknown |= flag != "--full" && flag != "--hidden" && flag != "--ours" && flag != "--localize";
+    flags.hypotheses |= flag == "--hypotheses";
+    unknown |= flag != "--full" && flag != "--hidden" && flag != "--ours" && flag != "--localize" &&
+               flag != "--hypotheses";
   }
   if (argc < 3 || unknown) {
     std::fprintf(stderr,
-                 "range_bearing_speed [--full] [--hidden] [--ours] [--localize] STEPS N...\n");
+                 "range_bearing_speed [--full] [--hidden] [--ours] [--localize] [--hypotheses] "
+                 "STEPS N...\n");
     return 2;
   }
   std::printf("landmarks  filter              mean ms   worst ms    ratio\n");

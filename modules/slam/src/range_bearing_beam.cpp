@@ -20,7 +20,7 @@ constexpr double kLeastLogWeight = -20.0;
 /// In a map that stays as it is few histories differ, and patience costs little.
 constexpr double kLeastLogWeightInFixedMap = -40.0;
 /// Decisions after which two histories that agree are one.
-constexpr int kMemory = 60;
+constexpr int kDecisionsCompared = 60;
 /// In a map that stays as it is a history is a pose, once its frame is over: one that a likelier
 /// one agrees with to so many squared deviations of its own goes, unless it is far less sure: a
 /// robot that may be anywhere is another one than a robot that is here.
@@ -28,7 +28,7 @@ constexpr double kAlike2 = 0.5;
 constexpr double kFarLessSure = 64.0;  ///< ratio of the determinants
 
 /// The states of all histories, and so many at least.
-constexpr std::size_t kMemory_bytes = std::size_t{1} << 29;
+constexpr std::size_t kStates_bytes = std::size_t{1} << 29;
 constexpr std::size_t kFewest = 4;
 
 enum class Choice { kLandmark, kBirth, kOutlier };
@@ -62,7 +62,7 @@ bool agrees(const Account& account, const Account& likelier) {
 std::size_t mostOf(const RangeBearingHypothesis& hypothesis, const RangeBearingOptions& options) {
   const auto wanted = static_cast<std::size_t>(std::max(1, options.hypotheses));
   const auto bytes = static_cast<std::size_t>(hypothesis.filter.state().P.size()) * sizeof(double);
-  const std::size_t room = std::max(kFewest, kMemory_bytes / std::max<std::size_t>(1, bytes));
+  const std::size_t room = std::max(kFewest, kStates_bytes / std::max<std::size_t>(1, bytes));
   return std::min(hypothesis.grows() ? wanted : 3 * wanted, room);
 }
 
@@ -230,7 +230,7 @@ void mergeAlike(const ReadingHistories& histories,
                 std::vector<RangeBearingHypothesis>& hypotheses) {
   std::set<std::uint64_t> known;
   std::erase_if(hypotheses, [&](const auto& hypothesis) {
-    return !known.insert(histories.recent(hypothesis.leaf, kMemory)).second;
+    return !known.insert(histories.recent(hypothesis.leaf, kDecisionsCompared)).second;
   });
 }
 
