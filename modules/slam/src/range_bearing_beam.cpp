@@ -6,11 +6,11 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <span>
 
 #include "colonnade/base/angle.hpp"
 #include "colonnade/filter/gate.hpp"
+#include "range_bearing_alike.hpp"
 
 namespace colonnade {
 namespace {
@@ -19,13 +19,10 @@ namespace {
 constexpr double kLeastLogWeight = -20.0;
 /// In a map that stays as it is few histories differ, and patience costs little.
 constexpr double kLeastLogWeightInFixedMap = -40.0;
-/// Decisions after which two histories that agree are one.
-constexpr int kDecisionsCompared = 60;
 /// In a map that stays as it is a history is a pose, once its frame is over: one that a likelier
-/// one agrees with to so many squared deviations of its own goes, unless it is far less sure: a
-/// robot that may be anywhere is another one than a robot that is here.
-constexpr double kAlike2 = 0.5;
-constexpr double kFarLessSure = 64.0;  ///< ratio of the determinants
+/// one agrees with goes, unless it is far less sure (ratio of the determinants): a robot that may
+/// be anywhere is another one than a robot that is here.
+constexpr double kFarLessSure = 64.0;
 
 /// The states of all histories, and so many at least.
 constexpr std::size_t kStates_bytes = std::size_t{1} << 29;
@@ -224,14 +221,6 @@ ReadingDecisions decideByHypotheses(const ReadingFrame& frame, const RangeBearin
   const double best = hypotheses.front().log_weight;
   for (auto& hypothesis : hypotheses) hypothesis.log_weight -= best;
   return {std::move(decided), founded.front(), events.front(), false};
-}
-
-void mergeAlike(const ReadingHistories& histories,
-                std::vector<RangeBearingHypothesis>& hypotheses) {
-  std::set<std::uint64_t> known;
-  std::erase_if(hypotheses, [&](const auto& hypothesis) {
-    return !known.insert(histories.recent(hypothesis.leaf, kDecisionsCompared)).second;
-  });
 }
 
 }  // namespace colonnade

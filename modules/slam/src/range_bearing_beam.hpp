@@ -13,7 +13,4 @@ namespace colonnade {
 ReadingDecisions decideByHypotheses(const ReadingFrame& frame, const RangeBearingOptions& options,
                                     std::vector<RangeBearingHypothesis>& hypotheses);
 
-/// Of hypotheses that differ only in decisions long past the likelier one remains.
-void mergeAlike(const ReadingHistories& histories, std::vector<RangeBearingHypothesis>& hypotheses);
-
 }  // namespace colonnade

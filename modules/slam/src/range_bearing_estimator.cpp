@@ -9,6 +9,7 @@
 #include <map>
 
 #include "colonnade/base/error.hpp"
+#include "range_bearing_alike.hpp"
 #include "range_bearing_beam.hpp"
 #include "range_bearing_joint.hpp"
 

@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "range_bearing_alike.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <numeric>
+#include <set>
+#include <utility>
+
+namespace colonnade {
+namespace {
+
+/// Decisions after which two histories that agree are one.
+constexpr int kDecisionsCompared = 60;
+/// No landmark is known better than this from the robot.
+constexpr double kSurest_m = 1e-5;
+
+/// A landmark as the robot has it before itself.
+struct Outlook {
+  Eigen::Vector2d p_robot;
+  Eigen::Matrix2d information;  ///< inverse covariance of p_robot
+  std::optional<int> identity;
+
+  bool agrees(const Outlook& likelier) const {
+    const Eigen::Vector2d apart = p_robot - likelier.p_robot;
+    return identity == likelier.identity && apart.dot(information * apart) < kAlike2;
+  }
+};
+
+/// p = R^T (l - t): its derivative by the heading is p turned clockwise.
+Outlook outlookOf(const RangeBearingHypothesis& history, const Block& block) {
+  const State& state = history.filter.state();
+  const Pose2 T_robot_world = state.T_world_robot().inverse();
+  const Eigen::Matrix2d R = T_robot_world.rotation();
+  const Eigen::Vector2d p = transform(T_robot_world, state.x.segment<2>(block.offset));
+  Eigen::Matrix<double, 2, 3> J_robot;
+  J_robot << -R, Eigen::Vector2d(p.y(), -p.x());
+  const Eigen::Matrix2d mixed = J_robot * state.P.block<3, 2>(0, block.offset) * R.transpose();
+  const Eigen::Matrix2d C = J_robot * state.P.topLeftCorner<3, 3>() * J_robot.transpose() + mixed +
+                            mixed.transpose() +
+                            R * state.P.block<2, 2>(block.offset, block.offset) * R.transpose() +
+                            kSurest_m * kSurest_m * Eigen::Matrix2d::Identity();
+  return {p, C.inverse(), history.identityOf(block.id)};
+}
+
+/// What a history expects: each landmark where it lies before the robot. Where the robot, and all
+/// of the map with it, is in the world does not matter, and how unsure that is hides no difference.
+class Expectation {
+ public:
+  explicit Expectation(const RangeBearingHypothesis& history) {
+    const auto& blocks = history.filter.state().blocks;
+    for (const Block& block : blocks) {
+      comparable_ = comparable_ && block.block_kind == BlockKind::kPoint;
+      if (comparable_) outlooks_.push_back(outlookOf(history, block));
+    }
+    order_.resize(outlooks_.size());
+    std::iota(order_.begin(), order_.end(), std::size_t{0});
+    std::sort(order_.begin(), order_.end(), [&](std::size_t a, std::size_t b) {
+      return blocks[a].evidence.last_stamp_s > blocks[b].evidence.last_stamp_s;
+    });
+    for (const Block& block : history.filter.restingBlocks()) resting_.push_back(block.id);
+  }
+
+  /// Whether each of its landmarks is one of the other's, as near as this history is sure of.
+  bool agrees(const Expectation& likelier) const {
+    if (!comparable_ || !likelier.comparable_ || outlooks_.size() != likelier.outlooks_.size() ||
+        resting_ != likelier.resting_)
+      return false;
+    std::vector<bool> taken(outlooks_.size(), false);
+    const auto isAt = [&](std::size_t i, std::size_t place) {
+      return !taken[place] && outlooks_[i].agrees(likelier.outlooks_[place]);
+    };
+    for (const std::size_t i : order_) {
+      std::size_t place = i;  // as a rule the two share most of their past
+      if (!isAt(i, place))
+        for (place = 0; place < taken.size() && !isAt(i, place);) ++place;
+      if (place == taken.size()) return false;
+      taken[place] = true;
+    }
+    return true;
+  }
+
+ private:
+  bool comparable_ = true;  ///< all active landmarks are points
+  std::vector<Outlook> outlooks_;
+  std::vector<std::size_t> order_;  ///< last seen first: there histories differ most often
+  std::vector<LandmarkId> resting_;
+};
+
+}  // namespace
+
+void mergeAlike(const ReadingHistories& histories,
+                std::vector<RangeBearingHypothesis>& hypotheses) {
+  std::set<std::uint64_t> known;
+  std::erase_if(hypotheses, [&](const auto& hypothesis) {
+    return !known.insert(histories.recent(hypothesis.leaf, kDecisionsCompared)).second;
+  });
+  if (!hypotheses.front().grows()) return;
+  std::vector<Expectation> expectations;
+  std::vector<RangeBearingHypothesis> kept;
+  for (RangeBearingHypothesis& hypothesis : hypotheses) {
+    Expectation expectation(hypothesis);
+    if (std::any_of(expectations.begin(), expectations.end(),
+                    [&](const auto& likelier) { return expectation.agrees(likelier); }))
+      continue;
+    expectations.push_back(std::move(expectation));
+    kept.push_back(std::move(hypothesis));
+  }
+  hypotheses = std::move(kept);
+}
+
+}  // namespace colonnade
