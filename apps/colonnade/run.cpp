@@ -104,7 +104,8 @@ void describe(const RangeBearingSession& session, nlohmann::ordered_json& json) 
   if (const auto& smoothed = session.smoothed())
     json["smoothing"] = {{"converged", smoothed->how.converged},
                          {"steps", smoothed->how.steps},
-                         {"readings_left_out", smoothed->how.unused}};
+                         {"readings_left_out", smoothed->how.unused},
+                         {"landmarks_merged", smoothed->merged.size()}};
 }
 
 /// Poses as they are known at the end, where a session keeps them.

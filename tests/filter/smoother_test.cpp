@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -277,6 +278,79 @@ TEST(Smoother, APointNothingSawStaysAndOneFrameIsNoDrive) {
   one.motions.resize(1);
   std::erase_if(one.sightings, [](const auto& s) { return s.pose > 0; });
   EXPECT_EQ(smooth(one, kGate).steps, 0);
+}
+
+/// After so many sightings a point's are of a second one founded beside it.
+void foundTwice(Drive& drive, std::size_t point, int sightings, const Eigen::Vector2d& beside) {
+  drive.points_world.emplace_back(drive.points_world[point] + beside);
+  for (auto& sighting : drive.sightings)
+    if (sighting.point == point && --sightings < 0) sighting.point = drive.points_world.size() - 1;
+  drive.nameless.assign(drive.points_world.size(), true);
+}
+
+TEST(Smoother, PointsFoundedTwiceBecomeOne) {
+  for (unsigned seed = 30; seed < 40; ++seed) {
+    SimulatedDrive drive = simulatedDrive(seed), named = drive;
+    for (Drive* d : {&drive.start, &named.start}) {
+      foundTwice(*d, 3, 25, {0.15, -0.1});
+      foundTwice(*d, 6, 12, {-0.1, 0.1});
+      foundTwice(*d, 13, 11, {0.1, 0.1});  // for the third time
+    }
+    const Smoothing result = smooth(drive.start, kGate);
+    std::vector<std::size_t> gone;
+    for (const auto& [point, into] : result.merged) gone.push_back(point);
+    EXPECT_EQ(gone.size(), 3u) << seed;
+    for (const std::size_t point : gone)
+      EXPECT_TRUE(std::none_of(drive.start.sightings.begin(), drive.start.sightings.end(),
+                               [&](const auto& s) { return s.point == point; }));
+    // Like a drive that never took one for two.
+    SimulatedDrive once = simulatedDrive(seed);
+    smooth(once.start, kGate);
+    EXPECT_NEAR(poseError(drive.start, drive.truth), poseError(once.start, once.truth), 0.02);
+
+    named.start.nameless.assign(named.start.points_world.size(), false);
+    EXPECT_TRUE(smooth(named.start, kGate).merged.empty());
+  }
+}
+
+/// Of a point 0.12 m beside another only those seen together can be told; one 0.3 m beside can,
+/// seen together or not.
+TEST(Smoother, NeighboursStayTwo) {
+  enum class Case { kTogether, kByTurns, kAlone };
+  for (const Case how : {Case::kTogether, Case::kByTurns, Case::kAlone}) {
+    for (unsigned seed = 50; seed < 60; ++seed) {
+      SimulatedDrive drive = simulatedDrive(seed);
+      Drive& d = drive.start;
+      const Eigen::Vector2d beside(how == Case::kByTurns ? 0.3 : 0.12, 0.0);
+      d.points_world.emplace_back(d.points_world[4] + beside);
+      d.nameless.assign(d.points_world.size(), true);
+      std::vector<Drive::Sighting> second;
+      for (const auto& sighting : d.sightings) {
+        if (sighting.point != 4) continue;
+        const Pose2& T = drive.truth.T_world_robot[sighting.pose];
+        const Eigen::Vector2d p = transform(T.inverse(), drive.truth.points_world[4]);
+        const Eigen::Vector2d q = transform(T.inverse(), drive.truth.points_world[4] + beside);
+        Drive::Sighting other = sighting;
+        other.point = d.points_world.size() - 1;
+        other.measurement.z(0) += std::atan2(q.y(), q.x()) - std::atan2(p.y(), p.x());
+        other.measurement.z(1) += q.norm() - p.norm();
+        second.push_back(other);
+      }
+      if (how != Case::kTogether)  // odd poses see the one, even ones the other
+        std::erase_if(d.sightings, [](const auto& s) { return s.point == 4 && s.pose % 2 == 0; });
+      for (const auto& sighting : second)
+        if (how == Case::kTogether || sighting.pose % 2 == 0) d.sightings.push_back(sighting);
+      if (how == Case::kAlone)  // a sensor of one reading: who is seen without whom says nothing
+        std::erase_if(d.sightings, [&](const auto& s) {
+          return s.point != 4 && s.point != d.points_world.size() - 1 &&
+                 std::any_of(d.sightings.begin(), d.sightings.end(), [&](const auto& o) {
+                   return o.pose == s.pose &&
+                          (o.point == 4 || o.point == d.points_world.size() - 1);
+                 });
+        });
+      EXPECT_TRUE(smooth(d, kGate).merged.empty()) << seed << static_cast<int>(how);
+    }
+  }
 }
 
 TEST(Smoother, WithoutSightingsNothingMoves) {

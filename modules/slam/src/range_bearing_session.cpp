@@ -6,6 +6,7 @@
 #include <memory>
 #include <utility>
 
+#include "colonnade/filter/covariance.hpp"
 #include "stopwatch.hpp"
 
 namespace colonnade {
@@ -95,13 +96,20 @@ LandmarkMap RangeBearingSession::map() const {
 
 SavedMap RangeBearingSession::savedMap() const {
   SavedMap map = estimator_.savedMap();
-  if (!smoothed_ || smoothed_->covariance.size() == 0) return map;
-  State state;
+  if (!smoothed_) return map;
+  for (const auto& [landmark, into] : smoothed_->merged) removeBlock(map.state, landmark);
   for (const LandmarkRecord& landmark : smoothed_->map) {
-    const Block* block = map.state.find(landmark.id);
-    state.blocks.push_back({landmark.id, BlockKind::kPoint, landmark.kind,
-                            static_cast<int>(3 + 2 * state.blocks.size()), block->evidence});
+    Evidence& evidence = map.state.find(landmark.id)->evidence;
+    evidence.observations = landmark.observations;
+    evidence.first_stamp_s = landmark.first_stamp_s;
+    evidence.last_stamp_s = landmark.last_stamp_s;
   }
+  if (smoothed_->covariance.size() == 0) return map;
+  State state;
+  for (const LandmarkRecord& landmark : smoothed_->map)
+    state.blocks.push_back({landmark.id, BlockKind::kPoint, landmark.kind,
+                            static_cast<int>(3 + 2 * state.blocks.size()),
+                            map.state.find(landmark.id)->evidence});
   if (from_ && !search_)
     map.T_world_start = from_->map.T_world_start;
   else if (!smoothed_->trajectory.empty())
@@ -135,7 +143,13 @@ std::vector<std::string> RangeBearingSession::notes() const {
 }
 
 IdentityScore RangeBearingSession::identityScore() const {
-  return scoreIdentities(estimator_.decisions(), identities_);
+  auto decisions = estimator_.decisions();
+  if (smoothed_)
+    for (auto& landmark : decisions)
+      if (const auto into = smoothed_->merged.find(landmark.value_or(LandmarkId{}));
+          landmark && into != smoothed_->merged.end())
+        landmark = into->second;
+  return scoreIdentities(decisions, identities_);
 }
 
 }  // namespace colonnade

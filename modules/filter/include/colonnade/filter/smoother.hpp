@@ -38,6 +38,8 @@ struct Drive {
   std::vector<Eigen::Vector2d> points_world;
   std::vector<Sighting> sightings;
   std::optional<Prior> prior = {};  ///< none: the first pose is given, the points are anywhere
+  /// For each point, or empty: whether it may turn out to be one of the others.
+  std::vector<bool> nameless = {};
 };
 
 struct Smoothing {
@@ -47,6 +49,11 @@ struct Smoothing {
   /// Sum of squared Mahalanobis distances; of sightings their Huber loss, of an unused one that of
   /// a sighting just at the gate.
   double cost = 0.0;
+  struct Merger {
+    std::size_t point = 0;  ///< has no sightings any more
+    std::size_t into = 0;   ///< where it was; that one may have been merged later
+  };
+  std::vector<Merger> merged;
   /// Of all points together, two rows for each, square metres, given the first pose or the prior;
   /// empty for more than 500 points.
   Eigen::MatrixXd covariance;
@@ -60,7 +67,8 @@ struct Smoothing {
 /// hundred is off by pull with Huber's loss; those outside the gate of `gate_probability` at the
 /// end are marked unused and the rest is solved again. Stretches bent to suit wrong sightings,
 /// between two motions outside the gate, are tried without them; of many or long ones only the
-/// first (see kMostTrials). Throws nothing; a drive without a sighting is left as it is.
+/// first. Points founded twice become one where Drive::nameless allows it. Throws nothing; a drive
+/// without a sighting is left as it is.
 Smoothing smooth(Drive& drive, double gate_probability);
 
 }  // namespace colonnade

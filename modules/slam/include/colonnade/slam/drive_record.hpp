@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -25,13 +26,16 @@ class DriveRecord {
     LandmarkMap map;
     /// Of the map's places together, two rows for each; empty for more than 500 landmarks.
     Eigen::MatrixXd covariance;
+    /// Landmarks founded twice that are no more in the map, and those of the map they are.
+    std::map<LandmarkId, LandmarkId> merged;
     Smoothing how;
   };
   /// The drive past the landmarks the estimator knows at the end, with its last word on which
   /// reading is of which; readings whose identity is believed are of its bearer. The map is the
   /// estimator's with places, extents and, up to 500 landmarks, covariances as smoothed; a landmark
   /// none of whose readings was used stays. With RangeBearing.world_with_map it is put back where
-  /// the estimator has it if it moved as a whole. Nothing when there is no reading of a landmark,
+  /// the estimator has it if it moved as a whole. Landmarks without identity that were founded
+  /// twice become one. Nothing when there is no reading of a landmark,
   /// or when smoothing failed: not finite, or half of the readings left out.
   /// from: the map the estimator went on from. Start and map then count as far as they are known,
   /// and a map that is left as it is stays; nothing where the drive saw more than 500 of its
@@ -46,6 +50,8 @@ class DriveRecord {
     int identity = -1;
     std::optional<Measurement> measurement;
   };
+  Drive driveOf(const RangeBearingEstimator& estimator, const LandmarkMap& map, bool use_ids) const;
+
   std::vector<double> stamps_s_;
   std::vector<Pose2> T_world_robot_;
   std::vector<Drive::Motion> motions_;

@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "colonnade/filter/smoother.hpp"
+
+namespace colonnade {
+
+/// Makes one of points of a settled drive that were founded twice: a robot that is off by more than
+/// it knows takes a thing it has seen before for another one beside it. A point that
+/// Drive::nameless allows, the rarer one of two such, becomes another within ten deviations of a
+/// reading where
+/// - the two were hardly ever seen together, though the point was with others, and
+/// - with all sightings of one point the drive costs no more than a sighting at the gate and, for
+///   the sightings that change, as much again as their noise alone (correspondence tests of Thrun
+///   and Montemerlo, The GraphSLAM Algorithm, International Journal of Robotics Research 25(5-6),
+///   2006, by the cost of the whole drive).
+/// See Smoothing::merged.
+void mergeDuplicates(Drive& drive, double gate_probability, Smoothing& result);
+
+}  // namespace colonnade
