@@ -4,7 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <random>
+#include <vector>
+
 #include "colonnade/base/angle.hpp"
+#include "colonnade/base/rigid_fit.hpp"
 #include "numeric_jacobian.hpp"
 
 namespace colonnade {
@@ -68,6 +73,37 @@ TEST(Pose2, ExponentialIsManySmallSteps) {
 TEST(Angle, WrapsIntoItsInterval) {
   EXPECT_NEAR(wrapAngle(3.5 * kPi), -0.5 * kPi, 1e-12);
   EXPECT_NEAR(wrapQuarterTurn(radians(89.0)), radians(-1.0), 1e-12);
+}
+
+TEST(RigidFit, LaysPointsOntoTheirLikes) {
+  const Pose2 T_a_b{3.0, -2.0, 2.5};
+  std::vector<PointPair> pairs;
+  for (const Eigen::Vector2d& p :
+       {Eigen::Vector2d(100.0, 40.0), Eigen::Vector2d(101.0, 43.0), Eigen::Vector2d(97.0, 41.5)})
+    pairs.push_back({transform(T_a_b, p), p});
+  EXPECT_LT((rigidFit(pairs).vector() - T_a_b.vector()).norm(), 1e-9);
+  pairs.push_back({{0.0, 0.0}, {500.0, 0.0}, 0.0});  // of no weight
+  EXPECT_LT((rigidFit(pairs).vector() - T_a_b.vector()).norm(), 1e-9);
+}
+
+TEST(RigidFit, LeavesTheLeastSquares) {
+  std::mt19937 random(5);
+  std::normal_distribution<double> gauss;
+  std::vector<PointPair> pairs;
+  for (int i = 0; i < 20; ++i)
+    pairs.push_back(
+        {{gauss(random), gauss(random)}, {gauss(random), gauss(random)}, std::abs(gauss(random))});
+  const auto cost = [&](const Pose2& T) {
+    double sum = 0.0;
+    for (const auto& [p_a, p_b, weight] : pairs)
+      sum += weight * (transform(T, p_b) - p_a).squaredNorm();
+    return sum;
+  };
+  const Pose2 best = rigidFit(pairs);
+  for (int i = 0; i < 100; ++i)
+    EXPECT_GE(
+        cost(exponential({0.1 * gauss(random), 0.1 * gauss(random), 0.1 * gauss(random)}) * best),
+        cost(best));
 }
 
 }  // namespace

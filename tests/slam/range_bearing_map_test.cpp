@@ -11,6 +11,7 @@
 #include <fstream>
 
 #include "colonnade/base/error.hpp"
+#include "colonnade/base/rigid_fit.hpp"
 #include "colonnade/evaluation/trajectory_score.hpp"
 #include "colonnade/frames/mrclam_import.hpp"
 #include "colonnade/frames/rawlog_source.hpp"
@@ -36,21 +37,10 @@ RingOfPosts ring(unsigned seed, std::size_t first_step = kStartOfDay2,
 
 /// Where the truth lies in the world of a map: no drive knows its first heading exactly.
 Pose2 alignment(const LandmarkMap& map) {
-  Eigen::Vector2d truth = Eigen::Vector2d::Zero(), here = truth;
-  for (const LandmarkRecord& landmark : map) {
-    truth += RingOfPosts::post(number(landmark.id)) / static_cast<double>(map.size());
-    here += landmark.p_world / static_cast<double>(map.size());
-  }
-  double cosine = 0.0, sine = 0.0;
-  for (const LandmarkRecord& landmark : map) {
-    const Eigen::Vector2d a = RingOfPosts::post(number(landmark.id)) - truth;
-    const Eigen::Vector2d b = landmark.p_world - here;
-    cosine += a.dot(b);
-    sine += a.x() * b.y() - a.y() * b.x();
-  }
-  const Pose2 turn{0.0, 0.0, std::atan2(sine, cosine)};
-  const Eigen::Vector2d t = here - transform(turn, truth);
-  return {t.x(), t.y(), turn.phi};
+  std::vector<PointPair> posts;
+  for (const LandmarkRecord& landmark : map)
+    posts.push_back({landmark.p_world, RingOfPosts::post(number(landmark.id))});
+  return rigidFit(posts);
 }
 
 /// Root mean square distance of the poses from the truth in this world.

@@ -13,13 +13,6 @@
 namespace colonnade {
 namespace {
 
-std::vector<WorldAnchor> anchorsOf(const std::vector<Eigen::Vector2d>& points,
-                                   const std::vector<double>& weights) {
-  std::vector<WorldAnchor> anchors;
-  for (std::size_t i = 0; i < points.size(); ++i) anchors.push_back({points[i], weights[i]});
-  return anchors;
-}
-
 /// The same drive past fewer points, in this order; all of its sightings are of them.
 void keepPoints(Drive& drive, const std::vector<std::size_t>& kept) {
   std::vector<std::size_t> place(drive.points_world.size(), 0);
@@ -156,9 +149,12 @@ std::optional<DriveRecord::Smoothed> DriveRecord::smoothed(
   for (const Drive::Sighting& sighting : drive.sightings)
     if (sighting.used) used[sighting.point] += 1.0;
   Pose2 T_map_start;
-  if (options.world_with_map && !from)
-    T_map_start =
-        motionOfMap(anchorsOf(before, used), anchorsOf(drive.points_world, used)).value_or(Pose2{});
+  if (options.world_with_map && !from) {
+    std::vector<PointPair> anchors;
+    for (std::size_t i = 0; i < used.size(); ++i)
+      anchors.push_back({before[i], drive.points_world[i], used[i]});
+    T_map_start = motionOfMap(anchors).value_or(Pose2{});
+  }
   for (std::size_t k = 0; k < stamps_s_.size(); ++k)
     result.trajectory.push_back(
         {stamps_s_[k], (T_map_start * drive.T_world_robot[k]).toIsometry3()});

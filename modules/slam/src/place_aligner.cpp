@@ -6,6 +6,8 @@
 #include <cmath>
 #include <set>
 
+#include "colonnade/base/rigid_fit.hpp"
+
 namespace colonnade {
 namespace {
 
@@ -57,7 +59,9 @@ PlaceAligner::Alignment PlaceAligner::fitted(Pose2 T_map_here) const {
     const double wider = fit + 1 < kFits ? 2.0 : 1.0;
     pairs = paired(T_map_here, wider * options_.tolerance_m);
     if (pairs.size() < 2) return {};
-    T_map_here = leastSquares(pairs);
+    std::vector<PointPair> points;
+    for (const Pairing& pair : pairs) points.push_back({map_[pair.map].p, here_[pair.here].p});
+    T_map_here = rigidFit(points);
   }
   Alignment found{T_map_here, {}, 0, 0, 0, 0.0, 0.0};
   std::set<std::size_t> fits, of, named;
@@ -96,25 +100,6 @@ std::vector<PlaceAligner::Pairing> PlaceAligner::paired(const Pose2& T_map_here,
     taken.push_back(pair);
   }
   return taken;
-}
-
-/// Horn 1987, in the plane.
-Pose2 PlaceAligner::leastSquares(const std::vector<Pairing>& pairs) const {
-  const auto count = static_cast<double>(pairs.size());
-  Eigen::Vector2d here = Eigen::Vector2d::Zero(), map = here;
-  for (const Pairing& pair : pairs) {
-    here += here_[pair.here].p / count;
-    map += map_[pair.map].p / count;
-  }
-  double cosine = 0.0, sine = 0.0;
-  for (const Pairing& pair : pairs) {
-    const Eigen::Vector2d a = here_[pair.here].p - here, b = map_[pair.map].p - map;
-    cosine += a.dot(b);
-    sine += a.x() * b.y() - a.y() * b.x();
-  }
-  const Pose2 turn{0.0, 0.0, std::atan2(sine, cosine)};
-  const Eigen::Vector2d t = map - transform(turn, here);
-  return {t.x(), t.y(), turn.phi};
 }
 
 double PlaceAligner::evidenceOf(const Alignment& a) const {

@@ -44,7 +44,6 @@ class PlaceAligner {
 
   /// Each with one of the other map at most, the nearest first.
   std::vector<Pairing> paired(const Pose2& T_map_here, double reach_m) const;
-  Pose2 leastSquares(const std::vector<Pairing>& pairs) const;
   /// How unlikely chance does as well, as a natural logarithm: so many places have a like of theirs
   /// within the tolerance, and these, but for the three numbers that were fitted, lie so near.
   double evidenceOf(const Alignment& alignment) const;

@@ -98,22 +98,20 @@ std::optional<LandmarkId> RangeBearingHypothesis::found(const LandmarkReading& r
   return id;
 }
 
-std::vector<WorldAnchor> RangeBearingHypothesis::anchors() const {
-  std::vector<WorldAnchor> anchors;
-  for (const Block& block : filter.state().blocks)
-    if (block.block_kind == BlockKind::kPoint)
-      anchors.push_back({Eigen::Vector2d(filter.state().values(block)),
-                         static_cast<double>(block.evidence.observations)});
-  return anchors;
-}
-
 std::vector<bool> RangeBearingHypothesis::update(std::span<const Match> matches,
                                                  double noise_scale) {
-  const bool world_moves = options_->world_with_map && grows_;
-  const auto before = world_moves ? anchors() : std::vector<WorldAnchor>{};
+  const State& state = filter.state();
+  std::vector<PointPair> anchors;
+  std::vector<int> offsets;
+  for (const Block& block : state.blocks) {
+    if (!options_->world_with_map || !grows_ || block.block_kind != BlockKind::kPoint) continue;
+    const Eigen::Vector2d p = state.values(block);
+    anchors.push_back({p, p, static_cast<double>(block.evidence.observations)});
+    offsets.push_back(block.offset);
+  }
   auto used = filter.update(matches, noise_scale);
-  if (world_moves)
-    if (const auto back = motionOfMap(before, anchors())) T_world_start = T_world_start * *back;
+  for (std::size_t i = 0; i < anchors.size(); ++i) anchors[i].p_b = state.x.segment<2>(offsets[i]);
+  if (const auto back = motionOfMap(anchors)) T_world_start = T_world_start * *back;
   return used;
 }
 

@@ -93,7 +93,6 @@ class RangeBearingHypothesis {
     LandmarkId clone{};
     Measurement measurement;
   };
-  std::vector<WorldAnchor> anchors() const;
   void forget(LandmarkId landmark);
   void release(LandmarkId clone);
 

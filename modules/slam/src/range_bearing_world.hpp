@@ -2,25 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Eigen/Core>
 #include <optional>
-#include <vector>
+#include <span>
 
-#include "colonnade/base/pose2.hpp"
+#include "colonnade/base/rigid_fit.hpp"
 
 namespace colonnade {
 
-/// A landmark as an anchor of the world: its place, and how often it was seen.
-struct WorldAnchor {
-  Eigen::Vector2d p = Eigen::Vector2d::Zero();
-  double weight = 0.0;
-};
-
-/// The rigid motion that takes the anchors from where they are now back to where they were, in the
-/// least squares, weighted (Horn 1987, in the plane). Nothing when they did not move as one: fewer
+/// The rigid motion that takes anchors of the world, weighed by how often they were seen, from
+/// where they are now (b) back to where they were (a). Nothing when they did not move as one: fewer
 /// than four of them, all within a metre, or a motion that leaves much of the change unexplained.
-/// Both lists hold the same anchors in the same order.
-std::optional<Pose2> motionOfMap(const std::vector<WorldAnchor>& before,
-                                 const std::vector<WorldAnchor>& after);
+std::optional<Pose2> motionOfMap(std::span<const PointPair> anchors);
 
 }  // namespace colonnade
