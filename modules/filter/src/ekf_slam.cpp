@@ -8,6 +8,7 @@
 #include "colonnade/base/angle.hpp"
 #include "colonnade/filter/covariance.hpp"
 #include "colonnade/filter/gate.hpp"
+#include "first_look.hpp"
 
 namespace colonnade {
 namespace {
@@ -108,21 +109,9 @@ bool EkfSlam::mayBeWithin(LandmarkId landmark, const Measurement& measurement,
                           double distance2) const {
   const Block* block = state_.find(landmark);
   if (!block || block->block_kind != BlockKind::kPoint || !measurement.hasRange()) return true;
-  // Thrice for three errors that may hang together (place and heading of the robot, landmark), the
-  // rest for what is not linear.
-  constexpr double kReserve = 4.0;
-  const double range = measurement.z(1);
-  const Eigen::Vector2d p_robot =
-      range * Eigen::Vector2d(std::cos(measurement.z(0)), std::sin(measurement.z(0))) +
-      measurement.p_robot_camera;
-  const double apart2 =
-      (transform(pose(), p_robot) - state_.values(*block).head<2>()).squaredNorm();
-  const auto& P = state_.P;
-  const MeasurementCovariance R = noiseOf(measurement);
-  const double spread2 = P(0, 0) + P(1, 1) + P(block->offset, block->offset) +
-                         P(block->offset + 1, block->offset + 1) + p_robot.squaredNorm() * P(2, 2) +
-                         range * range * R(0, 0) + R(1, 1);
-  return !(apart2 > kReserve * distance2 * spread2);
+  return !FirstLook(pose(), poseCovariance(), measurement)
+              .rulesOut(state_.values(*block), state_.P.diagonal().segment<2>(block->offset).sum(),
+                        distance2);
 }
 
 RobotEstimate EkfSlam::robotAfter(const Match& match, double noise_scale) const {

@@ -6,14 +6,13 @@
 
 #include "colonnade/filter/ekf_slam.hpp"
 #include "colonnade/filter/gate.hpp"
+#include "first_look.hpp"
 
 namespace colonnade {
 namespace {
 
 /// Share of right measurements whose landmark is found among the resting ones.
 constexpr double kNearProbability = 0.9999;
-/// Four times that gate, for a first look by distance: Var(a - b) is at most 2 (Var a + Var b).
-constexpr double kFirstLook2 = 4.0 * 18.4;
 constexpr double kFarthestInverseDepth = 1e-3;
 /// What is active lies along the way ahead: what the robot sees next is there, and landmarks are
 /// exchanged half as often as with the nearest ones. As long as so many times the radius in which
@@ -87,19 +86,10 @@ double nearest(std::vector<Place>& places, std::size_t count, const Segment& way
   return places[count - 1].distance;
 }
 
-/// A measurement with range, and where and how widely around it its landmark may be.
+/// A measurement with range.
 struct Sighting {
   const Measurement* measurement;
-  Eigen::Vector2d p_world;
-  double spread2;  ///< m^2, but for the landmark's own
-  double reach_m;  ///< of a first look, by that spread
-
-  /// Whether a first look rules out a landmark at `p` with a reach of its own. The square root of
-  /// a sum is at most the sum of the roots.
-  bool isFarFrom(const Eigen::Vector2d& p, double own_reach_m) const {
-    const double both_m = own_reach_m + reach_m;
-    return (p - p_world).squaredNorm() > both_m * both_m;
-  }
+  FirstLook look;
 };
 
 std::vector<Sighting> sightings(std::span<const Measurement> measurements, const Pose2& pose,
@@ -107,12 +97,7 @@ std::vector<Sighting> sightings(std::span<const Measurement> measurements, const
   std::vector<Sighting> sightings;
   for (const Measurement& m : measurements) {
     if (!m.hasRange() || m.kind == LandmarkKind::kFloorEdge) continue;
-    if (!m.z.allFinite() || !m.R.allFinite()) continue;
-    const Eigen::Vector2d p_world = pointFromRange(pose, m).block;
-    const double range2 = (p_world - pose.translation()).squaredNorm();
-    const double spread2 =
-        P_robot.topLeftCorner<2, 2>().trace() + range2 * (P_robot(2, 2) + m.R(0, 0)) + m.R(1, 1);
-    sightings.push_back({&m, p_world, spread2, std::sqrt(kFirstLook2 * spread2)});
+    if (m.z.allFinite() && m.R.allFinite()) sightings.push_back({&m, {pose, P_robot, m}});
   }
   return sightings;
 }
@@ -163,12 +148,11 @@ std::vector<LandmarkId> EkfSlam::activeNear(std::span<const Measurement> measure
   };
   for (const Block& block : state_.blocks) {
     if (block.block_kind != BlockKind::kPoint) continue;
+    const Eigen::Vector2d p = state_.values(block);
     const double spread2 = state_.P.diagonal().segment<2>(block.offset).sum();
-    const double own_reach_m = std::sqrt(kFirstLook2 * spread2);
     if (std::any_of(seen.begin(), seen.end(), [&](const Sighting& sighting) {
           return sighting.measurement->kind == block.landmark_kind &&
-                 !sighting.isFarFrom(state_.values(block), own_reach_m) &&
-                 mayBe(block, *sighting.measurement);
+                 !sighting.look.rulesOut(p, spread2, bound) && mayBe(block, *sighting.measurement);
         }))
       near.push_back(block.id);
   }
@@ -182,12 +166,7 @@ std::vector<LandmarkId> EkfSlam::restingNear(std::span<const Measurement> measur
   if (resting_.empty() || seen.empty()) return near;
   const double bound = chiSquareQuantile(kNearProbability, 2);
   const double move = resting_.largestMove(state_);
-  const auto mayBe = [&](const Block& block, const Sighting& sighting) {
-    const Measurement& m = *sighting.measurement;
-    const double spread2 = resting_.spread2(block);
-    const double apart =
-        (resting_.valueThen(block) - sighting.p_world).norm() - move * std::sqrt(spread2);
-    if (apart > 0.0 && apart * apart > kFirstLook2 * (sighting.spread2 + spread2)) return false;
+  const auto mayBe = [&](const Block& block, const Measurement& m) {
     const RestingMap::Marginal marginal = resting_.marginal(block, state_);
     const auto predicted = predictMeasurement(pose(), block.block_kind, marginal.y, m);
     const Eigen::MatrixXd cross =
@@ -202,10 +181,12 @@ std::vector<LandmarkId> EkfSlam::restingNear(std::span<const Measurement> measur
   for (const Block& block : resting_.blocks()) {
     if (block.block_kind != BlockKind::kPoint) continue;
     const Eigen::Vector2d p = resting_.valueThen(block);
-    const double own_reach_m = (move + std::sqrt(kFirstLook2)) * std::sqrt(resting_.spread2(block));
+    const double spread2 = resting_.spread2(block);
+    const double moved_m = move * std::sqrt(spread2);
     if (std::any_of(seen.begin(), seen.end(), [&](const Sighting& sighting) {
-          return !sighting.isFarFrom(p, own_reach_m) &&
-                 sighting.measurement->kind == block.landmark_kind && mayBe(block, sighting);
+          return sighting.measurement->kind == block.landmark_kind &&
+                 !sighting.look.rulesOut(p, moved_m, spread2, bound) &&
+                 mayBe(block, *sighting.measurement);
         }))
       near.push_back(block.id);
   }
