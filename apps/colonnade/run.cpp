@@ -101,11 +101,15 @@ void describe(const RangeBearingSession& session, nlohmann::ordered_json& json) 
                          {"associated", score.associated},
                          {"right", score.right},
                          {"right_share", score.rightShare()}};
-  if (const auto& smoothed = session.smoothed())
+  if (const auto& smoothed = session.smoothed()) {
+    auto merged = nlohmann::ordered_json::array();
+    for (const auto& [landmark, into] : smoothed->merged)
+      merged.push_back({{"id", number(landmark)}, {"into", number(into)}});
     json["smoothing"] = {{"converged", smoothed->how.converged},
                          {"steps", smoothed->how.steps},
                          {"readings_left_out", smoothed->how.unused},
-                         {"landmarks_merged", smoothed->merged.size()}};
+                         {"landmarks_merged", merged}};
+  }
 }
 
 /// Poses as they are known at the end, where a session keeps them.

@@ -111,8 +111,9 @@ std::string toText(const Json& json) {
           " pairs), " + count("floor_edge") + " floor edges, " + count("depth_slope") +
           " depth-slope corners, " + std::to_string(json["axes"].get<std::size_t>()) +
           " building axes\n";
-  if (const auto merged = json.value("/smoothing/landmarks_merged"_json_pointer, 0); merged > 0)
-    text += "merged     landmarks founded twice: " + std::to_string(merged) + "\n";
+  if (const auto pointer = "/smoothing/landmarks_merged"_json_pointer;
+      json.contains(pointer) && !json[pointer].empty())
+    text += "merged     landmarks founded twice: " + std::to_string(json[pointer].size()) + "\n";
   if (const int closings = json["loop_closings"].get<int>(); closings > 0)
     text += "loops      " + std::to_string(closings) + " closed\n";
   text += "time       " + formatFixed(json["timing_ms"]["frame"]["median"], 1) +

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
+#include "colonnade/base/atomic_file.hpp"
 #include "colonnade/evaluation/trajectory_score.hpp"
 #include "colonnade/frames/mrclam_import.hpp"
 #include "colonnade/frames/rawlog_source.hpp"
@@ -189,6 +191,52 @@ TEST(RangeBearingSmoothing, RealRobotsSortOutWhatTheySee) {
         EXPECT_NE(saved.state.find(into), nullptr);
       }
     }
+  }
+}
+
+/// What was founded beside landmarks of the map that was loaded becomes one with them, and those
+/// stay.
+TEST(RangeBearingSmoothing, ASecondRobotGoesOnInTheMapOfTheFirst) {
+  COLONNADE_REQUIRE_RECORDING(folder, "mrclam7");
+  const testing::TemporaryFolder out;
+  RangeBearingOptions options;
+  options.use_ids = false;
+  Resumption from;
+  {
+    RawlogSource log(realDrive(folder, 1, out.path()).log);
+    RangeBearingSession first(options, {}, {});
+    first.run(log, [](const auto&...) { return true; });
+    from.map = first.savedMap();
+  }
+  from.anywhere = PlaceOptions{};
+  const auto [path, truth] = realDrive(folder, 5, out.path());
+  RawlogSource log(path);
+  RangeBearingSession session(options, {}, {}, from);
+  session.run(log, [](const auto&...) { return true; });
+  ASSERT_EQ(session.search(), nullptr);
+  ASSERT_TRUE(session.smoothed());
+  EXPECT_LT(evaluateTrajectory(session.smoothed()->trajectory, truth).ate_rmse_m, 0.1);
+  const auto& merged = session.smoothed()->merged;
+  EXPECT_FALSE(merged.empty());
+  const LandmarkMap map = session.map();
+  EXPECT_LE(map.size(), from.map.state.blocks.size() + 4);
+  const auto isInMap = [&](LandmarkId id) {
+    return std::any_of(map.begin(), map.end(), [&](const auto& m) { return m.id == id; });
+  };
+  for (const Block& block : from.map.state.blocks) EXPECT_TRUE(isInMap(block.id));
+  for (const auto& [gone, into] : merged) {
+    EXPECT_FALSE(isInMap(gone));
+    EXPECT_TRUE(isInMap(into));
+  }
+  writeFileAtomically(out.path() / "map.colonnade", MapFile::text(session.savedMap()));
+  const SavedMap saved = MapFile::read(out.path() / "map.colonnade");
+  ASSERT_EQ(saved.state.blocks.size(), map.size());
+  for (std::size_t i = 0; i < map.size(); ++i) {
+    const Block& block = saved.state.blocks[i];
+    EXPECT_EQ(block.id, map[i].id);
+    EXPECT_LT((saved.state.values(block) - map[i].p_world).norm(), 1e-9);
+    EXPECT_LT((saved.state.P.block<2, 2>(block.offset, block.offset) - map[i].covariance).norm(),
+              1e-9);
   }
 }
 

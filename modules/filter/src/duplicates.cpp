@@ -3,7 +3,9 @@
 #include "duplicates.hpp"
 
 #include <algorithm>
+#include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "settle.hpp"
@@ -13,57 +15,108 @@ namespace {
 
 constexpr double kNear = 10.0;  ///< deviations of a reading
 /// Hardly ever together: in one of so many sightings of the rarer one.
-constexpr std::size_t kHardlyEver = 10;
-/// So many of its sightings with others tell that it is seen alone for a reason.
-constexpr std::size_t kFewestInCompany = 3;
+constexpr double kHardlyEver = 10.0;
+/// Two that are two are seen together so seldom by chance at most this often. Not stricter: two
+/// things so near that their readings suit one place are rare, landmarks founded twice are not.
+constexpr double kChance = 0.2;
+/// Share of the readings within the range, and the angle, a sensor is taken to see.
+constexpr double kMostReadings = 0.95;
 
 /// What the sightings in use say of one point.
 struct Seen {
   std::vector<std::size_t> poses;  ///< ascending; one for each sighting
   double numbers = 0.0;            ///< that were measured
-  double spread2 = 0.0;            ///< m^2, the mean of readings with range
+  double spread2 = 0.0;            ///< m^2, the mean of its readings
 };
 
-std::vector<Seen> seenOf(const Drive& drive) {
-  std::vector<Seen> points(drive.points_world.size());
-  for (const Drive::Sighting& sighting : drive.sightings) {
-    const Measurement& m = sighting.measurement;
-    if (!sighting.used || !m.hasRange()) continue;
-    Seen& point = points[sighting.point];
-    point.poses.push_back(sighting.pose);
-    point.numbers += static_cast<double>(m.z.size());
-    point.spread2 += m.R(1, 1) + m.z(1) * m.z(1) * m.R(0, 0);
-  }
-  for (Seen& point : points) {
-    std::sort(point.poses.begin(), point.poses.end());
-    point.spread2 /= std::max<double>(1.0, static_cast<double>(point.poses.size()));
-  }
-  return points;
+double quantile(std::vector<double> values) {
+  const auto at =
+      static_cast<std::ptrdiff_t>(kMostReadings * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + at, values.end());
+  return values[static_cast<std::size_t>(at)];
 }
 
-/// How many sightings there are from each pose.
-std::vector<std::size_t> companyOf(const Drive& drive) {
-  std::vector<std::size_t> company(drive.T_world_robot.size(), 0);
-  for (const Drive::Sighting& sighting : drive.sightings)
-    if (sighting.used) ++company[sighting.pose];
-  return company;
-}
+/// Who is seen with whom.
+class Company {
+ public:
+  explicit Company(const Drive& drive)
+      : drive_(drive),
+        points_(drive.points_world.size()),
+        sightings_(drive.T_world_robot.size(), 0) {
+    std::vector<double> ranges, angles;
+    for (const Drive::Sighting& sighting : drive.sightings) {
+      const Measurement& m = sighting.measurement;
+      if (!sighting.used || !m.hasRange()) continue;
+      Seen& point = points_[sighting.point];
+      point.poses.push_back(sighting.pose);
+      point.numbers += static_cast<double>(m.z.size());
+      point.spread2 += m.R(1, 1) + m.z(1) * m.z(1) * m.R(0, 0);
+      ++sightings_[sighting.pose];
+      ranges.push_back(m.z(1));
+      angles.push_back(std::abs(m.z(0)));
+    }
+    for (Seen& point : points_) {
+      std::sort(point.poses.begin(), point.poses.end());
+      point.spread2 /= std::max<double>(1.0, static_cast<double>(point.poses.size()));
+    }
+    if (ranges.empty()) return;
+    range_m_ = quantile(std::move(ranges));
+    angle_ = quantile(std::move(angles));
+  }
+
+  const Seen& operator[](std::size_t point) const { return points_[point]; }
+
+  /// Whether two points keep out of each other's way, as one thing with two names does. Were they
+  /// two, of what is in view with the rarer one the other would be as likely as any to be among
+  /// what is seen, and how often it is would follow Poisson's law.
+  bool excludeEachOther(std::size_t a, std::size_t b) const {
+    const bool a_is_rarer = points_[a].poses.size() <= points_[b].poses.size();
+    const Seen &rarer = points_[a_is_rarer ? a : b], &other = points_[a_is_rarer ? b : a];
+    double together = 0.0, expected = 0.0;
+    for (const std::size_t pose : rarer.poses) {
+      if (std::binary_search(other.poses.begin(), other.poses.end(), pose)) together += 1.0;
+      if (sightings_[pose] < 2) continue;
+      const auto others = static_cast<double>(sightings_[pose] - 1);
+      expected += others / std::max(others, static_cast<double>(inView(pose)) - 1.0);
+    }
+    return kHardlyEver * together <= static_cast<double>(rarer.poses.size()) && expected > 0.0 &&
+           boost::math::gamma_q(together + 1.0, expected) <= kChance;
+  }
+
+ private:
+  std::size_t inView(std::size_t pose) const {
+    const Pose2 T_robot_world = drive_.T_world_robot[pose].inverse();
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      if (points_[i].poses.empty()) continue;
+      const Eigen::Vector2d p = transform(T_robot_world, drive_.points_world[i]);
+      if (p.squaredNorm() < range_m_ * range_m_ && std::abs(std::atan2(p.y(), p.x())) < angle_)
+        ++count;
+    }
+    return count;
+  }
+
+  const Drive& drive_;
+  std::vector<Seen> points_;
+  std::vector<std::size_t> sightings_;  ///< from each pose
+  double range_m_ = 0.0, angle_ = 0.0;
+};
 
 struct Pair {
   std::size_t point = 0, into = 0;
   double distance_m = 0.0;
 };
 
-/// Nearest first.
-std::vector<Pair> nearPairs(const Drive& drive) {
-  const auto seen = seenOf(drive);
+/// Nearest first. Of two without a name the rarer one is merged into the other.
+std::vector<Pair> nearPairs(const Drive& drive, const Company& seen) {
   std::vector<Pair> pairs;
-  for (std::size_t a = 0; a < seen.size(); ++a) {
-    if (!drive.nameless[a] || seen[a].poses.empty()) continue;
-    for (std::size_t b = 0; b < seen.size(); ++b) {
-      const std::size_t count_a = seen[a].poses.size(), count_b = seen[b].poses.size();
-      const bool is_rarer = count_a < count_b || (count_a == count_b && (a > b));
-      if (a == b || !(is_rarer || !drive.nameless[b]) || count_b == 0) continue;
+  for (std::size_t a = 0; a < drive.points_world.size(); ++a) {
+    const std::size_t count_a = seen[a].poses.size();
+    if (!drive.nameless[a] || count_a == 0) continue;
+    for (std::size_t b = 0; b < drive.points_world.size(); ++b) {
+      const std::size_t count_b = seen[b].poses.size();
+      const bool is_rarer = count_a < count_b || (count_a == count_b && a > b);
+      if (a == b || count_b == 0 || (drive.nameless[b] && !is_rarer)) continue;
       const double distance_m = (drive.points_world[a] - drive.points_world[b]).norm();
       if (distance_m < kNear * std::sqrt(seen[a].spread2)) pairs.push_back({a, b, distance_m});
     }
@@ -71,19 +124,6 @@ std::vector<Pair> nearPairs(const Drive& drive) {
   std::sort(pairs.begin(), pairs.end(),
             [](const Pair& x, const Pair& y) { return x.distance_m < y.distance_m; });
   return pairs;
-}
-
-/// Whether two points keep out of each other's way, as one thing with two names does.
-bool excludeEachOther(const Drive& drive, const Seen& point, const Seen& other) {
-  const auto company = companyOf(drive);
-  std::size_t together = 0, in_company = 0;
-  for (const std::size_t pose : point.poses) {
-    const bool both = std::binary_search(other.poses.begin(), other.poses.end(), pose);
-    together += both;
-    in_company += !both && company[pose] > 1;
-  }
-  return kHardlyEver * together <= std::min(point.poses.size(), other.poses.size()) &&
-         in_company >= kFewestInCompany;
 }
 
 Drive withOnePoint(const Drive& drive, const Pair& pair) {
@@ -97,21 +137,24 @@ Drive withOnePoint(const Drive& drive, const Pair& pair) {
 
 void mergeDuplicates(Drive& drive, double gate_probability, Smoothing& result) {
   if (drive.nameless.empty()) return;
+  auto seen = std::make_optional<Company>(drive);
   std::size_t trials = affordableTrials(drive);
-  for (const Pair& pair : nearPairs(drive)) {
-    const auto seen = seenOf(drive);  // by now
-    const Seen &point = seen[pair.point], &into = seen[pair.into];
-    if (point.poses.empty() || into.poses.empty() || !excludeEachOther(drive, point, into))
-      continue;
+  for (const Pair& pair : nearPairs(drive, *seen)) {
+    const Seen &point = (*seen)[pair.point], &into = (*seen)[pair.into];
+    if (point.poses.empty() || into.poses.empty()) continue;  // merged meanwhile
+    if (!seen->excludeEachOther(pair.point, pair.into)) continue;
     if (trials-- == 0) return;
     Drive one = withOnePoint(drive, pair);
     Smoothing how = result;
     settle(one, gate_probability, how);
     result.steps = how.steps;
-    if (!(how.cost <= result.cost + costOfUnused(2, gate_probability) + point.numbers)) continue;
+    const double allowed =
+        costOfUnused(2, gate_probability) + std::min(point.numbers, into.numbers);
+    if (!how.converged || !(how.cost <= result.cost + allowed)) continue;
     drive = std::move(one);
     result = std::move(how);
     result.merged.push_back({pair.point, pair.into});
+    seen.emplace(drive);
   }
 }
 

@@ -8,14 +8,15 @@ namespace colonnade {
 
 /// Makes one of points of a settled drive that were founded twice: a robot that is off by more than
 /// it knows takes a thing it has seen before for another one beside it. A point that
-/// Drive::nameless allows, the rarer one of two such, becomes another within ten deviations of a
-/// reading where
-/// - the two were hardly ever seen together, though the point was with others, and
+/// Drive::nameless allows becomes another within ten deviations of a reading where
+/// - the two were hardly ever seen together, though, as often as the rarer one was seen with
+///   others, two would have been, and
 /// - with all sightings of one point the drive costs no more than a sighting at the gate and, for
-///   the sightings that change, as much again as their noise alone (correspondence tests of Thrun
-///   and Montemerlo, The GraphSLAM Algorithm, International Journal of Robotics Research 25(5-6),
-///   2006, by the cost of the whole drive).
-/// See Smoothing::merged.
+///   those of the rarer one, as much again as their noise alone (correspondence tests of Thrun and
+///   Montemerlo, The GraphSLAM Algorithm, International Journal of Robotics Research 25(5-6), 2006,
+///   by the cost of the whole drive).
+/// Of two such points the rarer one goes. The nearest pairs are tried first, and as many as
+/// affordableTrials() allows. See Smoothing::merged.
 void mergeDuplicates(Drive& drive, double gate_probability, Smoothing& result);
 
 }  // namespace colonnade

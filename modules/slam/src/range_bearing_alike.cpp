@@ -13,36 +13,20 @@ namespace {
 
 /// Decisions after which two histories that agree are one.
 constexpr int kDecisionsCompared = 60;
-/// No landmark is known better than this from the robot.
 constexpr double kSurest_m = 1e-5;
 
-/// A landmark as the robot has it before itself.
-struct Outlook {
+/// A landmark that rests, as the robot has it, by where it was at the last exchange.
+struct Resting {
+  LandmarkId id{};
   Eigen::Vector2d p_robot;
-  Eigen::Matrix2d information;  ///< inverse covariance of p_robot
-  std::optional<int> identity;
+  double spread2;  ///< sum of both variances, in the world
 
-  bool agrees(const Outlook& likelier) const {
-    const Eigen::Vector2d apart = p_robot - likelier.p_robot;
-    return identity == likelier.identity && apart.dot(information * apart) < kAlike2;
+  /// Identities are given by each history: the same one may be another thing in another place.
+  bool agrees(const Resting& likelier) const {
+    return id == likelier.id &&
+           (p_robot - likelier.p_robot).squaredNorm() < kAlike2 * std::max(spread2, kSurest_m);
   }
 };
-
-/// p = R^T (l - t): its derivative by the heading is p turned clockwise.
-Outlook outlookOf(const RangeBearingHypothesis& history, const Block& block) {
-  const State& state = history.filter.state();
-  const Pose2 T_robot_world = state.T_world_robot().inverse();
-  const Eigen::Matrix2d R = T_robot_world.rotation();
-  const Eigen::Vector2d p = transform(T_robot_world, state.x.segment<2>(block.offset));
-  Eigen::Matrix<double, 2, 3> J_robot;
-  J_robot << -R, Eigen::Vector2d(p.y(), -p.x());
-  const Eigen::Matrix2d mixed = J_robot * state.P.block<3, 2>(0, block.offset) * R.transpose();
-  const Eigen::Matrix2d C = J_robot * state.P.topLeftCorner<3, 3>() * J_robot.transpose() + mixed +
-                            mixed.transpose() +
-                            R * state.P.block<2, 2>(block.offset, block.offset) * R.transpose() +
-                            kSurest_m * kSurest_m * Eigen::Matrix2d::Identity();
-  return {p, C.inverse(), history.identityOf(block.id)};
-}
 
 /// What a history expects: each landmark where it lies before the robot. Where the robot, and all
 /// of the map with it, is in the world does not matter, and how unsure that is hides no difference.
@@ -54,18 +38,21 @@ class Expectation {
       comparable_ = comparable_ && block.block_kind == BlockKind::kPoint;
       if (comparable_) outlooks_.push_back(outlookOf(history, block));
     }
+    const RestingMap& resting = history.filter.resting();
+    const Pose2 T_robot_world = history.filter.pose().inverse();
+    for (const Block& block : resting.blocks())
+      resting_.push_back({block.id, transform(T_robot_world, resting.valueThen(block).head<2>()),
+                          resting.spread2(block)});
     order_.resize(outlooks_.size());
     std::iota(order_.begin(), order_.end(), std::size_t{0});
     std::sort(order_.begin(), order_.end(), [&](std::size_t a, std::size_t b) {
       return blocks[a].evidence.last_stamp_s > blocks[b].evidence.last_stamp_s;
     });
-    for (const Block& block : history.filter.restingBlocks()) resting_.push_back(block.id);
   }
 
   /// Whether each of its landmarks is one of the other's, as near as this history is sure of.
   bool agrees(const Expectation& likelier) const {
-    if (!comparable_ || !likelier.comparable_ || outlooks_.size() != likelier.outlooks_.size() ||
-        resting_ != likelier.resting_)
+    if (!comparable_ || !likelier.comparable_ || outlooks_.size() != likelier.outlooks_.size())
       return false;
     std::vector<bool> taken(outlooks_.size(), false);
     const auto isAt = [&](std::size_t i, std::size_t place) {
@@ -78,17 +65,41 @@ class Expectation {
       if (place == taken.size()) return false;
       taken[place] = true;
     }
-    return true;
+    return std::equal(resting_.begin(), resting_.end(), likelier.resting_.begin(),
+                      likelier.resting_.end(),
+                      [](const Resting& a, const Resting& b) { return a.agrees(b); });
   }
 
  private:
   bool comparable_ = true;  ///< all active landmarks are points
   std::vector<Outlook> outlooks_;
   std::vector<std::size_t> order_;  ///< last seen first: there histories differ most often
-  std::vector<LandmarkId> resting_;
+  std::vector<Resting> resting_;
 };
 
 }  // namespace
+
+bool Outlook::agrees(const Outlook& likelier) const {
+  const Eigen::Vector2d apart = p_robot - likelier.p_robot;
+  const double ratio2 = kFarLessSure * kFarLessSure;
+  return identity == likelier.identity && apart.dot(covariance.inverse() * apart) < kAlike2 &&
+         covariance.determinant() < ratio2 * ratio2 * likelier.covariance.determinant();
+}
+
+/// p = R^T (l - t): its derivative by the heading is p turned clockwise.
+Outlook outlookOf(const RangeBearingHypothesis& history, const Block& block) {
+  const State& state = history.filter.state();
+  const Pose2 T_robot_world = state.T_world_robot().inverse();
+  const Eigen::Matrix2d R = T_robot_world.rotation();
+  const Eigen::Vector2d p = transform(T_robot_world, state.x.segment<2>(block.offset));
+  Eigen::Matrix<double, 2, 3> J_robot;
+  J_robot << -R, Eigen::Vector2d(p.y(), -p.x());
+  const Eigen::Matrix2d mixed = J_robot * state.P.block<3, 2>(0, block.offset) * R.transpose();
+  const Eigen::Matrix2d C = J_robot * state.P.topLeftCorner<3, 3>() * J_robot.transpose() + mixed +
+                            mixed.transpose() +
+                            R * state.P.block<2, 2>(block.offset, block.offset) * R.transpose();
+  return {p, C + kSurest_m * kSurest_m * Eigen::Matrix2d::Identity(), history.identityOf(block.id)};
+}
 
 void mergeAlike(const ReadingHistories& histories,
                 std::vector<RangeBearingHypothesis>& hypotheses) {

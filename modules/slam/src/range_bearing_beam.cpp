@@ -19,11 +19,6 @@ namespace {
 constexpr double kLeastLogWeight = -20.0;
 /// In a map that stays as it is few histories differ, and patience costs little.
 constexpr double kLeastLogWeightInFixedMap = -40.0;
-/// In a map that stays as it is a history is a pose, once its frame is over: one that a likelier
-/// one agrees with goes, unless it is far less sure (ratio of the determinants): a robot that may
-/// be anywhere is another one than a robot that is here.
-constexpr double kFarLessSure = 64.0;
-
 /// The states of all histories, and so many at least.
 constexpr std::size_t kStates_bytes = std::size_t{1} << 29;
 constexpr std::size_t kFewest = 4;
@@ -37,8 +32,8 @@ struct Child {
   double log_weight = 0.0;
 };
 
-/// What a history says: where the robot is, and which landmarks readings to come can no longer be
-/// of, though they might.
+/// What a history says in a map that stays as it is: where the robot is, and, as long as its frame
+/// is not over, which landmarks readings to come can no longer be of, though they might.
 struct Account {
   RobotEstimate robot;
   std::vector<LandmarkId> taken;  ///< ascending
@@ -51,7 +46,8 @@ bool agrees(const Account& account, const Account& likelier) {
   const Pose2& other = likelier.robot.T_world_robot;
   const Eigen::Vector3d apart(pose.x - other.x, pose.y - other.y, wrapAngle(pose.phi - other.phi));
   return apart.dot(llt.solve(apart)) < kAlike2 &&
-         covariance.determinant() < kFarLessSure * likelier.robot.covariance.determinant();
+         covariance.determinant() <
+             std::pow(kFarLessSure, 6) * likelier.robot.covariance.determinant();
 }
 
 /// In a map that stays as it is, three times as many, since all of them differ; of large states

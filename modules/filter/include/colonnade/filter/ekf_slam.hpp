@@ -144,8 +144,7 @@ class EkfSlam {
   void focus(std::span<const LandmarkId> needed, std::span<const Measurement> open = {});
   bool knows(LandmarkId landmark) const { return state_.find(landmark) || isResting(landmark); }
   bool isResting(LandmarkId landmark) const { return resting_.find(landmark) != nullptr; }
-  /// By identity; offsets and values are the resting map's own.
-  const std::vector<Block>& restingBlocks() const { return resting_.blocks(); }
+  const RestingMap& resting() const { return resting_; }
   /// Nothing rests until the next focus(). To be called before the heading becomes uncertain by
   /// more than motion makes it: resting points are transported when they enter, with the heading's
   /// covariance of that moment.
