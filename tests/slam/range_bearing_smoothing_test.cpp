@@ -8,6 +8,7 @@
 
 #include "colonnade/base/atomic_file.hpp"
 #include "colonnade/evaluation/trajectory_score.hpp"
+#include "colonnade/filter/covariance.hpp"
 #include "colonnade/frames/mrclam_import.hpp"
 #include "colonnade/frames/rawlog_source.hpp"
 #include "colonnade/slam/range_bearing_session.hpp"
@@ -208,6 +209,11 @@ TEST(RangeBearingSmoothing, ASecondRobotGoesOnInTheMapOfTheFirst) {
     first.run(log, [](const auto&...) { return true; });
     from.map = first.savedMap();
   }
+  State& state = from.map.state;  // and something the second one never sees
+  const Eigen::Vector2d nowhere(100.0, 100.0);
+  const LandmarkId unseen{number(state.blocks.back().id) + 1};
+  augment(state, {unseen, BlockKind::kPoint, LandmarkKind::kPillarEdge, 0, {}}, nowhere,
+          SparseJacobian(2), 1e-4 * Eigen::Matrix2d::Identity());
   from.anywhere = PlaceOptions{};
   const auto [path, truth] = realDrive(folder, 5, out.path());
   RawlogSource log(path);
@@ -219,15 +225,17 @@ TEST(RangeBearingSmoothing, ASecondRobotGoesOnInTheMapOfTheFirst) {
   const auto& merged = session.smoothed()->merged;
   EXPECT_FALSE(merged.empty());
   const LandmarkMap map = session.map();
-  EXPECT_LE(map.size(), from.map.state.blocks.size() + 4);
+  EXPECT_LE(map.size(), state.blocks.size() + 4);
   const auto isInMap = [&](LandmarkId id) {
     return std::any_of(map.begin(), map.end(), [&](const auto& m) { return m.id == id; });
   };
-  for (const Block& block : from.map.state.blocks) EXPECT_TRUE(isInMap(block.id));
+  for (const Block& block : state.blocks) EXPECT_TRUE(isInMap(block.id));
   for (const auto& [gone, into] : merged) {
     EXPECT_FALSE(isInMap(gone));
     EXPECT_TRUE(isInMap(into));
   }
+  for (const LandmarkRecord& landmark : map)
+    EXPECT_EQ((landmark.p_world - nowhere).norm() < 1.0, landmark.id == unseen);
   writeFileAtomically(out.path() / "map.colonnade", MapFile::text(session.savedMap()));
   const SavedMap saved = MapFile::read(out.path() / "map.colonnade");
   ASSERT_EQ(saved.state.blocks.size(), map.size());
