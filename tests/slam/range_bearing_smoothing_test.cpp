@@ -230,9 +230,12 @@ TEST(RangeBearingSmoothing, ASecondRobotGoesOnInTheMapOfTheFirst) {
     return std::any_of(map.begin(), map.end(), [&](const auto& m) { return m.id == id; });
   };
   for (const Block& block : state.blocks) EXPECT_TRUE(isInMap(block.id));
+  const State all = session.filter().fullState();
   for (const auto& [gone, into] : merged) {
     EXPECT_FALSE(isInMap(gone));
     EXPECT_TRUE(isInMap(into));
+    const Eigen::Vector2d p = all.values(*all.find(gone)).head<2>();
+    EXPECT_LT((p - all.values(*all.find(into)).head<2>()).norm(), 0.5);
   }
   for (const LandmarkRecord& landmark : map)
     EXPECT_EQ((landmark.p_world - nowhere).norm() < 1.0, landmark.id == unseen);
