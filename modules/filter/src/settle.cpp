@@ -24,8 +24,8 @@ constexpr double kDearest = 0.999999;
 /// What damping 1 holds xi and a point to, m and rad. Damping by the diagonal of H would weigh the
 /// stiffness of the motions, which resist no turn of a long stretch.
 constexpr double kDampedSigma = 0.1;
-/// Trials of another drive: so many, and so many poses in all.
-constexpr std::size_t kMostTrials = 50, kMostPosesTried = 100'000;
+/// Trials of another drive: so many, and so many poses and sightings in all.
+constexpr std::size_t kMostTrials = 50, kMostTried = 300'000;
 
 using Sparse = Eigen::SparseMatrix<double>;
 
@@ -103,7 +103,8 @@ double costOfUnused(Eigen::Index size, double probability) {
 }
 
 std::size_t affordableTrials(const Drive& drive) {
-  return std::min(kMostTrials, 1 + kMostPosesTried / drive.T_world_robot.size());
+  const std::size_t size = drive.T_world_robot.size() + drive.sightings.size();
+  return std::min(kMostTrials, 1 + kMostTried / size);
 }
 
 }  // namespace colonnade
