@@ -6,6 +6,7 @@
 #include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "settle.hpp"
@@ -40,9 +41,7 @@ double quantile(std::vector<double> values) {
 class Company {
  public:
   explicit Company(const Drive& drive)
-      : drive_(drive),
-        points_(drive.points_world.size()),
-        sightings_(drive.T_world_robot.size(), 0) {
+      : drive_(drive), points_(drive.points_world.size()), poses_(drive.T_world_robot.size()) {
     std::vector<double> ranges, angles;
     for (const Drive::Sighting& sighting : drive.sightings) {
       const Measurement& m = sighting.measurement;
@@ -51,7 +50,8 @@ class Company {
       point.poses.push_back(sighting.pose);
       point.numbers += static_cast<double>(m.z.size());
       point.spread2 += m.R(1, 1) + m.z(1) * m.z(1) * m.R(0, 0);
-      ++sightings_[sighting.pose];
+      ++poses_[sighting.pose].sightings;
+      poses_[sighting.pose].p_robot_camera = m.p_robot_camera;
       ranges.push_back(m.z(1));
       angles.push_back(std::abs(m.z(0)));
     }
@@ -69,36 +69,46 @@ class Company {
   /// Whether two points keep out of each other's way, as one thing with two names does. Were they
   /// two, of what is in view with the rarer one the other would be as likely as any to be among
   /// what is seen, and how often it is would follow Poisson's law.
-  bool excludeEachOther(std::size_t a, std::size_t b) const {
+  bool excludeEachOther(std::size_t a, std::size_t b) {
     const bool a_is_rarer = points_[a].poses.size() <= points_[b].poses.size();
     const Seen &rarer = points_[a_is_rarer ? a : b], &other = points_[a_is_rarer ? b : a];
     double together = 0.0, expected = 0.0;
-    for (const std::size_t pose : rarer.poses) {
+    for (const std::size_t pose : rarer.poses)
       if (std::binary_search(other.poses.begin(), other.poses.end(), pose)) together += 1.0;
-      if (sightings_[pose] < 2) continue;
-      const auto others = static_cast<double>(sightings_[pose] - 1);
-      expected += others / std::max(others, static_cast<double>(inView(pose)) - 1.0);
+    if (kHardlyEver * together > static_cast<double>(rarer.poses.size())) return false;
+    for (const std::size_t pose : rarer.poses) {
+      if (poses_[pose].sightings < 2) continue;
+      const auto others = static_cast<double>(poses_[pose].sightings - 1);
+      expected += others / std::max(others, inView(pose) - 1.0);
     }
-    return kHardlyEver * together <= static_cast<double>(rarer.poses.size()) && expected > 0.0 &&
-           boost::math::gamma_q(together + 1.0, expected) <= kChance;
+    return expected > 0.0 && boost::math::gamma_q(together + 1.0, expected) <= kChance;
   }
 
  private:
-  std::size_t inView(std::size_t pose) const {
+  struct Pose {
+    std::size_t sightings = 0;
+    Eigen::Vector2d p_robot_camera = Eigen::Vector2d::Zero();
+    std::optional<double> in_view;  ///< once it was asked for
+  };
+
+  /// How many points a sensor like this one may see from there.
+  double inView(std::size_t pose) {
+    auto& [sightings, p_robot_camera, in_view] = poses_[pose];
+    if (in_view) return *in_view;
+    in_view = 0.0;
     const Pose2 T_robot_world = drive_.T_world_robot[pose].inverse();
-    std::size_t count = 0;
     for (std::size_t i = 0; i < points_.size(); ++i) {
       if (points_[i].poses.empty()) continue;
-      const Eigen::Vector2d p = transform(T_robot_world, drive_.points_world[i]);
-      if (p.squaredNorm() < range_m_ * range_m_ && std::abs(std::atan2(p.y(), p.x())) < angle_)
-        ++count;
+      const Eigen::Vector2d p = transform(T_robot_world, drive_.points_world[i]) - p_robot_camera;
+      if (p.squaredNorm() <= range_m_ * range_m_ && std::abs(std::atan2(p.y(), p.x())) <= angle_)
+        *in_view += 1.0;
     }
-    return count;
+    return *in_view;
   }
 
   const Drive& drive_;
   std::vector<Seen> points_;
-  std::vector<std::size_t> sightings_;  ///< from each pose
+  std::vector<Pose> poses_;
   double range_m_ = 0.0, angle_ = 0.0;
 };
 
@@ -137,24 +147,30 @@ Drive withOnePoint(const Drive& drive, const Pair& pair) {
 
 void mergeDuplicates(Drive& drive, double gate_probability, Smoothing& result) {
   if (drive.nameless.empty()) return;
-  auto seen = std::make_optional<Company>(drive);
-  std::size_t trials = affordableTrials(drive);
-  for (const Pair& pair : nearPairs(drive, *seen)) {
-    const Seen &point = (*seen)[pair.point], &into = (*seen)[pair.into];
-    if (point.poses.empty() || into.poses.empty()) continue;  // merged meanwhile
-    if (!seen->excludeEachOther(pair.point, pair.into)) continue;
-    if (trials-- == 0) return;
-    Drive one = withOnePoint(drive, pair);
-    Smoothing how = result;
-    settle(one, gate_probability, how);
-    result.steps = how.steps;
-    const double allowed =
-        costOfUnused(2, gate_probability) + std::min(point.numbers, into.numbers);
-    if (!how.converged || !(how.cost <= result.cost + allowed)) continue;
-    drive = std::move(one);
-    result = std::move(how);
-    result.merged.push_back({pair.point, pair.into});
-    seen.emplace(drive);
+  const int most_steps = result.steps + affordableSteps(drive);
+  std::set<std::pair<std::size_t, std::size_t>> tried;
+  for (bool merged = true; merged;) {
+    merged = false;
+    Company seen(drive);
+    for (const Pair& pair : nearPairs(drive, seen)) {
+      if (tried.contains(std::minmax(pair.point, pair.into)) ||
+          !seen.excludeEachOther(pair.point, pair.into))
+        continue;
+      if (result.steps >= most_steps) return;
+      tried.insert(std::minmax(pair.point, pair.into));
+      Drive one = withOnePoint(drive, pair);
+      Smoothing how = result;
+      settle(one, gate_probability, how);
+      result.steps = how.steps;
+      const double allowed = costOfUnused(2, gate_probability) +
+                             std::min(seen[pair.point].numbers, seen[pair.into].numbers);
+      if (!how.converged || !(how.cost <= result.cost + allowed)) continue;
+      drive = std::move(one);
+      result = std::move(how);
+      result.merged.push_back({pair.point, pair.into});
+      merged = true;
+      break;  // who is near whom, and which is the rarer one, is no longer what it was
+    }
   }
 }
 

@@ -11,12 +11,12 @@ namespace colonnade {
 /// Drive::nameless allows becomes another within ten deviations of a reading where
 /// - the two were hardly ever seen together, though, as often as the rarer one was seen with
 ///   others, two would have been, and
-/// - with all sightings of one point the drive costs no more than a sighting at the gate and, for
-///   those of the rarer one, as much again as their noise alone (correspondence tests of Thrun and
-///   Montemerlo, The GraphSLAM Algorithm, International Journal of Robotics Research 25(5-6), 2006,
-///   by the cost of the whole drive).
-/// Of two such points the rarer one goes. The nearest pairs are tried first, and as many as
-/// affordableTrials() allows. See Smoothing::merged.
+/// - with all sightings of one point the drive costs more than before by no more than a sighting
+///   at the gate and what the noise of the rarer one's sightings costs (correspondence tests of
+///   Thrun and Montemerlo, The GraphSLAM Algorithm, International Journal of Robotics Research
+///   25(5-6), 2006, by the cost of the whole drive).
+/// Of two such points the rarer one goes. The nearest pairs are tried first, until
+/// affordableSteps() are spent. See Smoothing::merged.
 void mergeDuplicates(Drive& drive, double gate_probability, Smoothing& result);
 
 }  // namespace colonnade

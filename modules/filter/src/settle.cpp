@@ -24,8 +24,8 @@ constexpr double kDearest = 0.999999;
 /// What damping 1 holds xi and a point to, m and rad. Damping by the diagonal of H would weigh the
 /// stiffness of the motions, which resist no turn of a long stretch.
 constexpr double kDampedSigma = 0.1;
-/// Trials of another drive: so many, and so many poses and sightings in all.
-constexpr std::size_t kMostTrials = 50, kMostTried = 300'000;
+/// Trials of other drives: so many poses and sightings in all steps together.
+constexpr std::size_t kMostTried = 1'000'000;
 
 using Sparse = Eigen::SparseMatrix<double>;
 
@@ -102,9 +102,8 @@ double costOfUnused(Eigen::Index size, double probability) {
                    size);
 }
 
-std::size_t affordableTrials(const Drive& drive) {
-  const std::size_t size = drive.T_world_robot.size() + drive.sightings.size();
-  return std::min(kMostTrials, 1 + kMostTried / size);
+int affordableSteps(const Drive& drive) {
+  return static_cast<int>(1 + kMostTried / (drive.T_world_robot.size() + drive.sightings.size()));
 }
 
 }  // namespace colonnade

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstddef>
 
 #include "colonnade/filter/smoother.hpp"
 
@@ -14,7 +13,8 @@ namespace colonnade {
 void settle(Drive& drive, double probability, Smoothing& result);
 double costOfUnused(Eigen::Index size, double probability);
 
-/// Another drive is settled by way of trial only so often: of many or long ones the first.
-std::size_t affordableTrials(const Drive& drive);
+/// Other drives are settled by way of trial as long as these are left; of many or long ones the
+/// first. A drive has at least one pose.
+int affordableSteps(const Drive& drive);
 
 }  // namespace colonnade

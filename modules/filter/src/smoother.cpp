@@ -48,8 +48,8 @@ void mend(Drive& drive, double probability, Smoothing& result) {
   std::vector<std::size_t> torn;
   for (std::size_t k = 1; k < drive.T_world_robot.size(); ++k)
     if (motionDistance2(drive, k) > chiSquareQuantile(probability, 3)) torn.push_back(k);
-  const std::size_t trials = affordableTrials(drive);
-  for (std::size_t i = 0; i + 1 < torn.size() && i < trials; ++i) {
+  const int most_steps = result.steps + affordableSteps(drive);
+  for (std::size_t i = 0; i + 1 < torn.size() && result.steps < most_steps; ++i) {
     Drive other = withoutSightings(drive, torn[i], torn[i + 1]);
     Smoothing how = result;
     settle(other, probability, how);

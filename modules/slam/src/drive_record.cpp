@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <utility>
 
 #include "known_map.hpp"
 #include "range_bearing_world.hpp"

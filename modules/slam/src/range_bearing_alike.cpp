@@ -4,6 +4,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <cstdint>
 #include <numeric>
 #include <set>
 #include <utility>
@@ -18,18 +19,20 @@ constexpr double kSurest_m = 1e-5;
 /// A landmark that rests, as the robot has it, by where it was at the last exchange.
 struct Resting {
   LandmarkId id{};
+  std::optional<int> identity;
   Eigen::Vector2d p_robot;
   double spread2;  ///< sum of both variances, in the world
 
   /// Identities are given by each history: the same one may be another thing in another place.
   bool agrees(const Resting& likelier) const {
-    return id == likelier.id &&
-           (p_robot - likelier.p_robot).squaredNorm() < kAlike2 * std::max(spread2, kSurest_m);
+    return id == likelier.id && identity == likelier.identity &&
+           (p_robot - likelier.p_robot).squaredNorm() < kAlike2 * (spread2 + kSurest_m * kSurest_m);
   }
 };
 
 /// What a history expects: each landmark where it lies before the robot. Where the robot, and all
-/// of the map with it, is in the world does not matter, and how unsure that is hides no difference.
+/// of the map with it, is in the world does not matter, and how unsure that is hides no difference,
+/// but for landmarks that rest: these were compared so while they were active.
 class Expectation {
  public:
   explicit Expectation(const RangeBearingHypothesis& history) {
@@ -41,7 +44,8 @@ class Expectation {
     const RestingMap& resting = history.filter.resting();
     const Pose2 T_robot_world = history.filter.pose().inverse();
     for (const Block& block : resting.blocks())
-      resting_.push_back({block.id, transform(T_robot_world, resting.valueThen(block).head<2>()),
+      resting_.push_back({block.id, history.identityOf(block.id),
+                          transform(T_robot_world, resting.valueThen(block).head<2>()),
                           resting.spread2(block)});
     order_.resize(outlooks_.size());
     std::iota(order_.begin(), order_.end(), std::size_t{0});

@@ -18,7 +18,7 @@ struct PointPair {
 
 /// The rigid motion T_a_b that lays the points of b onto those of a with the least weighted sum of
 /// squared distances (Horn, Journal of the Optical Society of America A 4(4), 1987, in the plane).
-/// Needs a positive weight; points that all lie in one place are not turned.
+/// Needs a positive weight; of points that all lie in one place the turn means nothing.
 Pose2 rigidFit(std::span<const PointPair> pairs);
 
 }  // namespace colonnade
