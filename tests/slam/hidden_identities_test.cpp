@@ -9,25 +9,15 @@
 #include <vector>
 
 #include "colonnade/slam/range_bearing_estimator.hpp"
+#include "map_of_posts.hpp"
 
 namespace colonnade {
 namespace {
 
-/// A map without errors in common.
-Resumption mapOf(const std::vector<Eigen::Vector2d>& posts, double sigma_m) {
-  Resumption from;
+/// One that is left as it is.
+Resumption fixedMapOf(const std::vector<Eigen::Vector2d>& posts, double sigma_m) {
+  Resumption from = testing::mapOf(posts, sigma_m);
   from.localize = true;
-  from.map.source = SavedMap::Source::kReadings;
-  State& state = from.map.state;
-  const auto size = static_cast<Eigen::Index>(3 + 2 * posts.size());
-  state.x.setZero(size);
-  state.P = sigma_m * sigma_m * Eigen::MatrixXd::Identity(size, size);
-  for (const Eigen::Vector2d& post : posts) {
-    const int number = static_cast<int>(state.blocks.size());
-    state.blocks.push_back(
-        {LandmarkId{number + 1}, BlockKind::kPoint, LandmarkKind::kPillarEdge, 3 + 2 * number, {}});
-    state.x.segment<2>(3 + 2 * number) = post;
-  }
   return from;
 }
 
@@ -78,7 +68,7 @@ bool findsBack(unsigned seed, double sigma_m, double sigma_heading, bool starts_
   Looks looks(seed);
   const auto posts = looks.posts(36);
   Pose2 T_world_robot{0.0, -3.0, 0.0};
-  Resumption from = mapOf(posts, 0.03);
+  Resumption from = fixedMapOf(posts, 0.03);
   from.T_world_robot = T_world_robot * looks.pose(sigma_m, sigma_heading);
   from.covariance = MapStart::startCovariance(sigma_m, sigma_heading);
   const RangeBearingOptions options = hidden();
@@ -127,7 +117,7 @@ TEST(HiddenIdentities, OfNeighboursAreDecidedTogether) {
   for (unsigned seed = 0; seed < 200; ++seed) {
     Looks looks(seed);
     const std::vector<Eigen::Vector2d> posts{{3.0, 0.0}, {3.0, 0.12}};
-    Resumption from = mapOf(posts, 0.01);
+    Resumption from = fixedMapOf(posts, 0.01);
     from.T_world_robot = looks.pose(0.02, radians(0.5));
     from.covariance = MapStart::startCovariance(0.02, radians(0.5));
     const RangeBearingOptions options = hidden();

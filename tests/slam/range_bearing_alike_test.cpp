@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "colonnade/filter/covariance.hpp"
+#include "map_of_posts.hpp"
 
 namespace colonnade {
 namespace {
@@ -24,19 +25,9 @@ Posts posts(int count) {
 }
 
 Resumption mapOf(const Posts& posts, double sigma_m, const Pose2& T_world = {}) {
-  Resumption from;
-  State& state = from.map.state;
-  const auto size = static_cast<Eigen::Index>(3 + 2 * posts.size());
-  state.x.setZero(size);
-  state.P = sigma_m * sigma_m * Eigen::MatrixXd::Identity(size, size);
-  for (const Eigen::Vector2d& post : posts) {
-    const int number = static_cast<int>(state.blocks.size());
-    state.blocks.push_back(
-        {LandmarkId{number + 1}, BlockKind::kPoint, LandmarkKind::kPillarEdge, 3 + 2 * number, {}});
-    state.x.segment<2>(3 + 2 * number) = post;
-  }
-  moveWorld(state, T_world);
-  state.x.head<3>().setZero();
+  Resumption from = testing::mapOf(posts, sigma_m);
+  moveWorld(from.map.state, T_world);
+  from.map.state.x.head<3>().setZero();
   from.T_world_robot = T_world * Pose2{0.3, -0.2, 0.4};
   from.covariance = MapStart::startCovariance(0.5 * sigma_m, 0.2 * sigma_m);
   return from;
