@@ -23,7 +23,7 @@ struct Resting {
   Eigen::Vector2d p_robot;
   double spread2;  ///< sum of both variances, in the world
 
-  /// Identities are given by each history: the same one may be another thing in another place.
+  /// Each history hands out its own ids: the same one may be another thing in another place.
   bool agrees(const Resting& likelier) const {
     return id == likelier.id && identity == likelier.identity &&
            (p_robot - likelier.p_robot).squaredNorm() < kAlike2 * (spread2 + kSurest_m * kSurest_m);
