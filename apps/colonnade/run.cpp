@@ -101,6 +101,15 @@ void describe(const RangeBearingSession& session, nlohmann::ordered_json& json) 
                          {"associated", score.associated},
                          {"right", score.right},
                          {"right_share", score.rightShare()}};
+  if (const auto sensor = session.sensor()) {
+    const SensorErrors sigmas = SensorErrors::of(sensor->covariance.diagonal().cwiseSqrt());
+    const SensorErrors& e = sensor->errors;
+    json["sensor"] = {
+        {"range_offset_m", {{"estimate", e.range_offset_m}, {"sigma", sigmas.range_offset_m}}},
+        {"range_scale", {{"estimate", e.range_scale}, {"sigma", sigmas.range_scale}}},
+        {"range_skew", {{"estimate", e.range_skew}, {"sigma", sigmas.range_skew}}},
+        {"bearing_scale", {{"estimate", e.bearing_scale}, {"sigma", sigmas.bearing_scale}}}};
+  }
   if (const auto& smoothed = session.smoothed()) {
     auto merged = nlohmann::ordered_json::array();
     for (const auto& [landmark, into] : smoothed->merged)

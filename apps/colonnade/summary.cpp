@@ -114,6 +114,17 @@ std::string toText(const Json& json) {
   if (const auto pointer = "/smoothing/landmarks_merged"_json_pointer;
       json.contains(pointer) && !json[pointer].empty())
     text += "merged     landmarks founded twice: " + std::to_string(json[pointer].size()) + "\n";
+  if (json.contains("sensor")) {
+    const auto error = [&](const char* key, double unit, int digits) {
+      const Json& e = json["sensor"][key];
+      return formatFixed(unit * e["estimate"].get<double>(), digits) + " +- " +
+             formatFixed(unit * e["sigma"].get<double>(), digits);
+    };
+    text += "sensor     ranges " + error("range_offset_m", 1.0, 3) + " m and " +
+            error("range_scale", 100.0, 1) + " % long (" + error("range_skew", 100.0, 1) +
+            " % for a radian of bearing), bearings " + error("bearing_scale", 100.0, 1) +
+            " % wide\n";
+  }
   if (const int closings = json["loop_closings"].get<int>(); closings > 0)
     text += "loops      " + std::to_string(closings) + " closed\n";
   text += "time       " + formatFixed(json["timing_ms"]["frame"]["median"], 1) +

@@ -14,10 +14,10 @@ namespace {
 void wrapDirections(State& state) {
   state.x(2) = wrapAngle(state.x(2));
   for (const Block& block : state.blocks) {
-    if (block.block_kind == BlockKind::kAxis)
-      state.x(block.offset) = wrapAngle(state.x(block.offset));
-    else if (block.size() >= 3)
-      state.x(block.offset + 2) = wrapAngle(state.x(block.offset + 2));
+    const int direction = layoutOf(block.block_kind).direction;
+    if (direction < 0) continue;
+    double& angle = state.x(block.offset + direction);
+    angle = wrapAngle(angle);
   }
 }
 
@@ -28,20 +28,16 @@ void retractInvariant(State& state, const Eigen::VectorXd& dx, Eigen::Index fixe
   const Eigen::VectorXd rest = dx - worldTurn(state) * turn;
   const Eigen::Matrix2d R = Eigen::Rotation2Dd(turn).toRotationMatrix();
   const Eigen::Matrix2d V = spreadOverTurn(turn);
-  const auto move = [&](int offset, int size) {
-    auto p = state.x.segment<2>(offset);
-    p = (R * p + V * rest.segment<2>(offset)).eval();
-    if (size >= 3) state.x(offset + 2) += turn + rest(offset + 2);
-    if (size == 4) state.x(offset + 3) += rest(offset + 3);
+  const auto move = [&](int offset, int size, BlockLayout layout) {
+    const int point = offset + layout.point;
+    Eigen::Vector2d p = Eigen::Vector2d::Zero();
+    if (layout.point >= 0) p = R * state.x.segment<2>(point) + V * rest.segment<2>(point);
+    state.x.segment(offset, size) += dx.segment(offset, size);
+    if (layout.point >= 0) state.x.segment<2>(point) = p;
   };
-  move(0, 3);
-  for (const Block& block : state.blocks) {
-    if (block.offset < 3 + fixed) continue;
-    if (block.block_kind == BlockKind::kAxis)
-      state.x(block.offset) += dx(block.offset);
-    else
-      move(block.offset, block.size());
-  }
+  move(0, 3, kRobotLayout);
+  for (const Block& block : state.blocks)
+    if (block.offset >= 3 + fixed) move(block.offset, block.size(), layoutOf(block.block_kind));
 }
 
 void retract(State& state, const Eigen::VectorXd& dx, bool invariant, Eigen::Index fixed) {
@@ -236,18 +232,15 @@ void moveWorld(State& state, const Pose2& T_new_old) {
     state.P.middleRows<2>(offset) = (R * state.P.middleRows<2>(offset)).eval();
     state.P.middleCols<2>(offset) = (state.P.middleCols<2>(offset) * R.transpose()).eval();
   };
-  const auto move = [&](Eigen::Index offset, int size) {
-    state.x.segment<2>(offset) = transform(T_new_old, state.x.segment<2>(offset));
-    if (size >= 3) state.x(offset + 2) += T_new_old.phi;
-    turn(offset);
+  const auto move = [&](int offset, BlockLayout layout) {
+    if (layout.direction >= 0) state.x(offset + layout.direction) += T_new_old.phi;
+    if (layout.point < 0) return;
+    const int point = offset + layout.point;
+    state.x.segment<2>(point) = transform(T_new_old, state.x.segment<2>(point));
+    turn(point);
   };
-  move(0, 3);
-  for (const Block& block : state.blocks) {
-    if (block.block_kind == BlockKind::kAxis)
-      state.x(block.offset) += T_new_old.phi;
-    else
-      move(block.offset, block.size());
-  }
+  move(0, kRobotLayout);
+  for (const Block& block : state.blocks) move(block.offset, layoutOf(block.block_kind));
   wrapDirections(state);
   state.P = (0.5 * (state.P + state.P.transpose())).eval();
 }
@@ -267,6 +260,7 @@ void removeBlock(State& state, LandmarkId id) {
     Phi.middleRows(offset, tail) = Phi.bottomRows(tail).eval();
     Phi.conservativeResize(offset + tail, Eigen::NoChange);
   }
+  if (state.sensor == id) state.sensor.reset();
   state.blocks.erase(state.blocks.begin() + (block - state.blocks.data()));
   for (Block& other : state.blocks)
     if (other.offset > offset) other.offset -= static_cast<int>(size);

@@ -9,6 +9,7 @@
 #include "colonnade/filter/covariance.hpp"
 #include "colonnade/filter/gate.hpp"
 #include "first_look.hpp"
+#include "sensed.hpp"
 
 namespace colonnade {
 namespace {
@@ -39,20 +40,24 @@ Stack stack(const State& state, std::span<const Match> matches) {
   Eigen::Index rows = 0;
   for (const Match& match : matches) rows += match.measurement.z.size();
   Stack s{SparseJacobian(rows), Eigen::VectorXd(rows), Eigen::MatrixXd::Zero(rows, rows)};
-  Eigen::MatrixXd H_robot(rows, 3);
+  Eigen::MatrixXd H_robot(rows, 3), H_sensor;
+  if (state.sensor) H_sensor.setZero(rows, sizeOf(BlockKind::kSensor));
   Eigen::Index row = 0;
   for (const Match& match : matches) {
     const Block& block = *state.find(match.landmark);
-    const auto predicted = predictMeasurement(state.T_world_robot(), block.block_kind,
-                                              state.values(block), match.measurement);
+    auto predicted = predictMeasurement(state.T_world_robot(), block.block_kind,
+                                        state.values(block), match.measurement);
     const Eigen::Index size = predicted.z.size();
+    if (const Block* sensor = sensorOf(state, match.measurement))
+      H_sensor.middleRows(row, size) = readWith(errorsOf(state, sensor), predicted);
     s.nu.segment(row, size) = innovationOf(match.measurement, predicted.z);
     s.R.block(row, row, size, size) = noiseOf(match.measurement);
     H_robot.middleRows(row, size) = predicted.H_robot;
     s.H.add(row, block.offset, predicted.H_block);
     row += size;
   }
-  s.H.add(0, 0, H_robot);
+  s.H.add(0, 0, std::move(H_robot));
+  if (state.sensor) s.H.add(0, state.find(*state.sensor)->offset, std::move(H_sensor));
   return s;
 }
 
@@ -109,7 +114,7 @@ bool EkfSlam::mayBeWithin(LandmarkId landmark, const Measurement& measurement,
                           double distance2) const {
   const Block* block = state_.find(landmark);
   if (!block || block->block_kind != BlockKind::kPoint || !measurement.hasRange()) return true;
-  return !FirstLook(pose(), poseCovariance(), measurement)
+  return !FirstLook(pose(), poseCovariance(), seenWith(state_, measurement))
               .rulesOut(state_.values(*block), state_.P.diagonal().segment<2>(block->offset).sum(),
                         distance2);
 }
@@ -181,13 +186,21 @@ std::optional<LandmarkId> EkfSlam::addLandmark(const Measurement& measurement) {
     health_.refuse("measurement not finite");
     return std::nullopt;
   }
-  const InverseMeasurement inverse =
-      is_line ? lineFromFloor(pose(), measurement) : pointFromRange(pose(), measurement);
+  const FreedMeasurement freed = freedOf(state_, measurement);
+  if (!isUsable(freed.measurement)) {
+    health_.refuse("measurement not finite");
+    return std::nullopt;
+  }
+  const InverseMeasurement inverse = is_line ? lineFromFloor(pose(), freed.measurement)
+                                             : pointFromRange(pose(), freed.measurement);
+  SparseJacobian J(inverse.block.size());
+  J.add(0, 0, inverse.J_robot);
+  if (const Block* sensor = sensorOf(state_, measurement))
+    J.add(0, sensor->offset, inverse.J_z * freed.J_errors);
   const LandmarkId id = nextId();
   augment(state_,
           {id, is_line ? BlockKind::kFloorLine : BlockKind::kPoint, measurement.kind, 0, {}},
-          inverse.block, SparseJacobian(inverse.block.size()).add(0, 0, inverse.J_robot),
-          inverse.J_z * noiseOf(measurement) * inverse.J_z.transpose());
+          inverse.block, J, inverse.J_z * noiseOf(freed.measurement) * inverse.J_z.transpose());
   return id;
 }
 
@@ -209,13 +222,20 @@ struct TwoViews {
 TwoViews lookTwice(const State& state, const Block& clone, const Measurement& first,
                    const Measurement& now) {
   const Eigen::Vector3d a = state.x.segment<3>(clone.offset);
+  const FreedMeasurement bearing_a = freedOf(state, first), bearing_b = freedOf(state, now);
   TwoViews views;
-  views.triangulation = triangulate({a(0), a(1), a(2)}, first, state.T_world_robot(), now);
+  views.triangulation = triangulate({a(0), a(1), a(2)}, bearing_a.measurement,
+                                    state.T_world_robot(), bearing_b.measurement);
   const auto& t = views.triangulation;
   views.J_state.rows = 4;
   views.J_state.add(0, clone.offset, t.J_robot_a).add(0, 0, t.J_robot_b);
-  views.bearing_covariance = first.R(0, 0) * t.J_bearing_a * t.J_bearing_a.transpose() +
-                             now.R(0, 0) * t.J_bearing_b * t.J_bearing_b.transpose();
+  if (const Block* sensor = sensorOf(state, now))
+    views.J_state.add(
+        0, sensor->offset,
+        t.J_bearing_a * bearing_a.J_errors.row(0) + t.J_bearing_b * bearing_b.J_errors.row(0));
+  views.bearing_covariance =
+      bearing_a.measurement.R(0, 0) * t.J_bearing_a * t.J_bearing_a.transpose() +
+      bearing_b.measurement.R(0, 0) * t.J_bearing_b * t.J_bearing_b.transpose();
   return views;
 }
 
@@ -271,6 +291,19 @@ void EkfSlam::placeRobot(const Pose2& T_world_robot, const Eigen::Matrix3d& cova
   state_.P.topRows<3>().setZero();
   state_.P.leftCols<3>().setZero();
   state_.P.topLeftCorner<3, 3>() = covariance;
+}
+
+void EkfSlam::addSensor(const SensorErrors& sigmas) {
+  const LandmarkId id = nextId();
+  augment(state_, {id, BlockKind::kSensor, {}, 0, {}}, Eigen::Vector4d::Zero(), SparseJacobian(4),
+          sigmas.vector().cwiseAbs2().asDiagonal().toDenseMatrix());
+  state_.sensor = id;
+}
+
+std::optional<SensorEstimate> EkfSlam::sensor() const {
+  if (!state_.sensor) return std::nullopt;
+  const Block& block = *state_.find(*state_.sensor);
+  return SensorEstimate{errorsOf(state_, &block), state_.P.block<4, 4>(block.offset, block.offset)};
 }
 
 bool EkfSlam::isFixed(LandmarkId block) const {

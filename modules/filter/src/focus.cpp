@@ -7,6 +7,7 @@
 #include "colonnade/filter/ekf_slam.hpp"
 #include "colonnade/filter/gate.hpp"
 #include "first_look.hpp"
+#include "sensed.hpp"
 
 namespace colonnade {
 namespace {
@@ -89,15 +90,18 @@ double nearest(std::vector<Place>& places, std::size_t count, const Segment& way
 /// A measurement with range.
 struct Sighting {
   const Measurement* measurement;
+  Measurement seen;  ///< seenWith() the sensor
   FirstLook look;
 };
 
-std::vector<Sighting> sightings(std::span<const Measurement> measurements, const Pose2& pose,
-                                const Eigen::Matrix3d& P_robot) {
+std::vector<Sighting> sightings(std::span<const Measurement> measurements, const State& state) {
+  const Eigen::Matrix3d P_robot = state.P.topLeftCorner<3, 3>();
   std::vector<Sighting> sightings;
   for (const Measurement& m : measurements) {
     if (!m.hasRange() || m.kind == LandmarkKind::kFloorEdge) continue;
-    if (m.z.allFinite() && m.R.allFinite()) sightings.push_back({&m, {pose, P_robot, m}});
+    if (!m.z.allFinite() || !m.R.allFinite()) continue;
+    const Measurement seen = seenWith(state, m);
+    sightings.push_back({&m, seen, {state.T_world_robot(), P_robot, seen}});
   }
   return sightings;
 }
@@ -140,7 +144,7 @@ void EkfSlam::focus(std::span<const LandmarkId> needed, std::span<const Measurem
 
 std::vector<LandmarkId> EkfSlam::activeNear(std::span<const Measurement> measurements) const {
   std::vector<LandmarkId> near;
-  const auto seen = sightings(measurements, pose(), poseCovariance());
+  const auto seen = sightings(measurements, state_);
   const double bound = chiSquareQuantile(kNearProbability, 2);
   const auto mayBe = [&](const Block& block, const Measurement& m) {
     const auto predicted = innovation(block.id, m);
@@ -162,7 +166,7 @@ std::vector<LandmarkId> EkfSlam::activeNear(std::span<const Measurement> measure
 std::vector<LandmarkId> EkfSlam::restingNear(std::span<const Measurement> measurements) const {
   std::vector<LandmarkId> near;
   const Eigen::Matrix3d P_robot = poseCovariance();
-  const auto seen = sightings(measurements, pose(), P_robot);
+  const auto seen = sightings(measurements, state_);
   if (resting_.empty() || seen.empty()) return near;
   const double bound = chiSquareQuantile(kNearProbability, 2);
   const double move = resting_.largestMove(state_);
@@ -185,8 +189,7 @@ std::vector<LandmarkId> EkfSlam::restingNear(std::span<const Measurement> measur
     const double moved_m = move * std::sqrt(spread2);
     if (std::any_of(seen.begin(), seen.end(), [&](const Sighting& sighting) {
           return sighting.measurement->kind == block.landmark_kind &&
-                 !sighting.look.rulesOut(p, moved_m, spread2, bound) &&
-                 mayBe(block, *sighting.measurement);
+                 !sighting.look.rulesOut(p, moved_m, spread2, bound) && mayBe(block, sighting.seen);
         }))
       near.push_back(block.id);
   }

@@ -15,15 +15,25 @@ namespace {
 
 constexpr double kHuberProbability = 0.99;
 /// Entries of H from each motion, sighting and point.
-constexpr std::size_t kMotionEntries = 36, kSightingEntries = 25, kPointEntries = 2;
+constexpr std::size_t kMotionEntries = 36, kSightingEntries = 25, kPointEntries = 2,
+                      kSensorEntries = 56;
 /// A standing robot states no noise at all; its poses are tied to within this.
 constexpr double kStandingSigma = 1e-5;  ///< m and rad
 /// Keeps a point that was only seen along one ray where it is.
 constexpr double kLooseSigma_m = 100.0;
+/// Holds an error of the sensor that is known not to be there.
+constexpr double kKnownSigma = 1e-6;
 
-PredictedMeasurement predicted(const Drive& drive, const Drive::Sighting& sighting) {
-  return predictMeasurement(drive.T_world_robot[sighting.pose], BlockKind::kPoint,
-                            drive.points_world[sighting.point], sighting.measurement);
+/// J_sensor: the derivative in the errors of the sensor, if the drive has one.
+PredictedMeasurement predicted(const Drive& drive, const Drive::Sighting& sighting,
+                               SensorJacobian* J_sensor = nullptr) {
+  PredictedMeasurement expected =
+      predictMeasurement(drive.T_world_robot[sighting.pose], BlockKind::kPoint,
+                         drive.points_world[sighting.point], sighting.measurement);
+  if (!drive.sensor) return expected;
+  const SensorJacobian J = readWith(drive.sensor->errors, expected);
+  if (J_sensor) *J_sensor = J;
+  return expected;
 }
 
 Eigen::Vector3d motionResidual(const Drive& drive, std::size_t pose) {
@@ -55,15 +65,18 @@ Eigen::Matrix3d liftOf(const Pose2& T_world_robot) {
 NormalEquations::NormalEquations(const Drive& drive)
     : held_(drive.prior ? 0 : 1),
       poses_(static_cast<Eigen::Index>(drive.T_world_robot.size())),
-      g_(Eigen::VectorXd::Zero(pointAt(drive.points_world.size()))) {
+      points_(drive.points_world.size()),
+      g_(Eigen::VectorXd::Zero(sensorAt() + (drive.sensor ? 4 : 0))) {
   entries_.reserve(kMotionEntries * drive.motions.size() +
-                   kSightingEntries * drive.sightings.size() +
+                   (kSightingEntries + (drive.sensor ? kSensorEntries : 0)) *
+                       drive.sightings.size() +
                    kPointEntries * drive.points_world.size());
   if (drive.prior) addPrior(drive, *drive.prior);
   for (std::size_t k = 1; k < drive.T_world_robot.size(); ++k) addMotion(drive, k);
   for (const Drive::Sighting& sighting : drive.sightings)
     if (sighting.used) addSighting(drive, sighting);
-  for (Eigen::Index i = pointAt(0); i < g_.size(); ++i)
+  if (drive.sensor) addSensor(*drive.sensor);
+  for (Eigen::Index i = pointAt(0); i < sensorAt(); ++i)
     entries_.emplace_back(i, i, 1.0 / (kLooseSigma_m * kLooseSigma_m));
 }
 
@@ -103,8 +116,18 @@ void NormalEquations::addMotion(const Drive& drive, std::size_t pose) {
   addPair(poseAt(pose - 1), poseAt(pose), -J, J, weight, residual);
 }
 
+void NormalEquations::addSensor(const Drive::Sensor& sensor) {
+  const Eigen::Vector4d information =
+      sensor.sigmas.vector().cwiseMax(kKnownSigma).cwiseAbs2().cwiseInverse();
+  const Eigen::Vector4d errors = sensor.errors.vector();
+  cost_ += errors.cwiseAbs2().dot(information);
+  addBlock(sensorAt(), sensorAt(), information.asDiagonal().toDenseMatrix());
+  g_.segment<4>(sensorAt()) += information.cwiseProduct(errors);
+}
+
 void NormalEquations::addSighting(const Drive& drive, const Drive::Sighting& sighting) {
-  const auto expected = predicted(drive, sighting);
+  SensorJacobian J_sensor;
+  const auto expected = predicted(drive, sighting, &J_sensor);
   const Eigen::VectorXd residual = -innovationOf(sighting.measurement, expected.z);
   const Eigen::MatrixXd information = noiseOf(sighting.measurement).inverse();
   const double distance = std::sqrt(residual.dot(information * residual));
@@ -112,9 +135,15 @@ void NormalEquations::addSighting(const Drive& drive, const Drive::Sighting& sig
   const bool far = distance > bound;
   cost_ += huberLoss(distance * distance, residual.size());
   const Eigen::MatrixXd weight = (far ? bound / distance : 1.0) * information;
-  addPair(poseAt(sighting.pose), pointAt(sighting.point),
-          expected.H_robot * liftOf(drive.T_world_robot[sighting.pose]), expected.H_block, weight,
+  const Eigen::MatrixXd J_pose = expected.H_robot * liftOf(drive.T_world_robot[sighting.pose]);
+  addPair(poseAt(sighting.pose), pointAt(sighting.point), J_pose, expected.H_block, weight,
           residual);
+  if (!drive.sensor) return;
+  const Eigen::MatrixXd weighted = weight * J_sensor;
+  addBlock(sensorAt(), sensorAt(), J_sensor.transpose() * weighted);
+  addMixed(poseAt(sighting.pose), sensorAt(), J_pose.transpose() * weighted);
+  addMixed(pointAt(sighting.point), sensorAt(), expected.H_block.transpose() * weighted);
+  g_.segment<4>(sensorAt()) += weighted.transpose() * residual;
 }
 
 void NormalEquations::addBlock(Eigen::Index row, Eigen::Index column,
@@ -125,14 +154,17 @@ void NormalEquations::addBlock(Eigen::Index row, Eigen::Index column,
       entries_.emplace_back(row + i, column + k, block(i, k));
 }
 
+void NormalEquations::addMixed(Eigen::Index a, Eigen::Index b, const Eigen::MatrixXd& block) {
+  addBlock(a, b, block);
+  addBlock(b, a, block.transpose());
+}
+
 void NormalEquations::addPair(Eigen::Index a, Eigen::Index b, const Eigen::MatrixXd& J_a,
                               const Eigen::MatrixXd& J_b, const Eigen::MatrixXd& weight,
                               const Eigen::VectorXd& residual) {
-  const Eigen::MatrixXd mixed = J_a.transpose() * weight * J_b;
   addBlock(a, a, J_a.transpose() * weight * J_a);
   addBlock(b, b, J_b.transpose() * weight * J_b);
-  addBlock(a, b, mixed);
-  addBlock(b, a, mixed.transpose());
+  addMixed(a, b, J_a.transpose() * weight * J_b);
   if (a >= 0) g_.segment(a, J_a.cols()) += J_a.transpose() * weight * residual;
   if (b >= 0) g_.segment(b, J_b.cols()) += J_b.transpose() * weight * residual;
 }
@@ -142,6 +174,9 @@ void move(Drive& drive, const NormalEquations& at, const Eigen::VectorXd& dx) {
     drive.T_world_robot[k] = exponential(dx.segment<3>(at.poseAt(k))) * drive.T_world_robot[k];
   for (std::size_t i = 0; i < drive.points_world.size(); ++i)
     drive.points_world[i] += dx.segment<2>(at.pointAt(i));
+  if (drive.sensor)
+    drive.sensor->errors =
+        SensorErrors::of(drive.sensor->errors.vector() + dx.segment<4>(at.sensorAt()));
 }
 
 double huberLoss(double distance2, Eigen::Index size) {

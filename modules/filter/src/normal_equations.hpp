@@ -13,9 +13,10 @@ namespace colonnade {
 
 /// H dx = -g of a drive's least squares about the estimate it holds, and the cost there: the sum of
 /// squared Mahalanobis distances, for sightings in Huber's loss. dx has three entries for each
-/// pose, but for the first without a prior, xi of Exp(xi) T_world_robot, and two for each point,
-/// metres added to it. With xi on the world's side a stretch of the way turns as a whole without
-/// any change to the motions along it, however stiff those are and however far it turns.
+/// pose, but for the first without a prior, xi of Exp(xi) T_world_robot, two for each point,
+/// metres added to it, and last four for a sensor's errors. With xi on the world's side a stretch
+/// of the way turns as a whole without any change to the motions along it, however stiff those are
+/// and however far it turns.
 class NormalEquations {
  public:
   explicit NormalEquations(const Drive& drive);
@@ -26,6 +27,7 @@ class NormalEquations {
   Eigen::Index pointAt(std::size_t point) const {
     return 3 * (poses_ - held_) + 2 * static_cast<Eigen::Index>(point);
   }
+  Eigen::Index sensorAt() const { return pointAt(points_); }
   std::size_t firstFreePose() const { return static_cast<std::size_t>(held_); }
   Eigen::SparseMatrix<double> H() const;
   const Eigen::VectorXd& g() const { return g_; }
@@ -34,14 +36,18 @@ class NormalEquations {
  private:
   void addPrior(const Drive& drive, const Drive::Prior& prior);
   void addMotion(const Drive& drive, std::size_t pose);
+  void addSensor(const Drive::Sensor& sensor);
   void addSighting(const Drive& drive, const Drive::Sighting& sighting);
   void addBlock(Eigen::Index row, Eigen::Index column, const Eigen::MatrixXd& block);
+  /// And its transpose, the other way round.
+  void addMixed(Eigen::Index a, Eigen::Index b, const Eigen::MatrixXd& block);
   void addPair(Eigen::Index a, Eigen::Index b, const Eigen::MatrixXd& J_a,
                const Eigen::MatrixXd& J_b, const Eigen::MatrixXd& weight,
                const Eigen::VectorXd& residual);
 
   Eigen::Index held_;  ///< poses that do not move: the first one, or none
   Eigen::Index poses_;
+  std::size_t points_;
   std::vector<Eigen::Triplet<double>> entries_;
   Eigen::VectorXd g_;
   double cost_ = 0.0;

@@ -29,15 +29,6 @@ bool older(const Block& a, const Block& b) { return a.id < b.id; }
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-/// Where the point, and where the direction of a block stands among its parameters; -1: none.
-struct Layout {
-  int point;
-  int direction;
-};
-Layout layoutOf(BlockKind kind) {
-  return kind == BlockKind::kAxis ? Layout{-1, 0} : Layout{0, kind == BlockKind::kPoint ? -1 : 2};
-}
-
 /// The rows of the parameters of these blocks.
 Indices indicesOf(const std::vector<Block>& blocks) {
   Indices indices;
@@ -94,7 +85,7 @@ void RestingMap::vacate(std::span<const Block> leaving) {
 BlockVector RestingMap::moved(const Block& block,
                               const Eigen::Ref<const Eigen::MatrixX3d>& step) const {
   BlockVector y = x_.segment(block.offset, block.size()) + step.col(0);
-  const Layout layout = layoutOf(block.block_kind);
+  const BlockLayout layout = layoutOf(block.block_kind);
   if (layout.point >= 0) {
     y(0) = x_(block.offset) + step(0, 1) - step(1, 2);
     y(1) = x_(block.offset + 1) + step(1, 1) + step(0, 2);
@@ -264,6 +255,7 @@ void RestingMap::exchange(State& state, const std::vector<LandmarkId>& active, b
 
   // The new state: the robot, and what is active in the order of birth.
   State next;
+  next.sensor = state.sensor;
   Indices from_state{0, 1, 2}, to_state{0, 1, 2}, to_entering;
   next.blocks = kept;
   next.blocks.insert(next.blocks.end(), in.blocks.begin(), in.blocks.end());

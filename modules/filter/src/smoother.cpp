@@ -61,16 +61,22 @@ void mend(Drive& drive, double probability, Smoothing& result) {
   }
 }
 
-Eigen::MatrixXd pointCovariance(const Drive& drive) {
+/// Of the points, and of the sensor's errors.
+void addCovariances(const Drive& drive, Smoothing& result) {
   const NormalEquations at(drive);
   const Sparse H = at.H();
   const Eigen::SimplicialLDLT<Sparse> factor(H);
-  if (factor.info() != Eigen::Success) return {};
-  const Eigen::Index first = at.pointAt(0), size = H.rows() - first;
-  Eigen::MatrixXd covariance(size, size);
-  for (Eigen::Index i = 0; i < size; ++i)
-    covariance.col(i) = factor.solve(Eigen::VectorXd::Unit(H.rows(), first + i)).tail(size);
-  return 0.5 * (covariance + covariance.transpose());
+  if (factor.info() != Eigen::Success) return;
+  const auto covarianceOf = [&](Eigen::Index first, Eigen::Index size) {
+    Eigen::MatrixXd covariance(size, size);
+    for (Eigen::Index i = 0; i < size; ++i)
+      covariance.col(i) =
+          factor.solve(Eigen::VectorXd::Unit(H.rows(), first + i)).segment(first, size);
+    return Eigen::MatrixXd(0.5 * (covariance + covariance.transpose()));
+  };
+  if (drive.points_world.size() <= kMostCovariances)
+    result.covariance = covarianceOf(at.pointAt(0), at.sensorAt() - at.pointAt(0));
+  if (drive.sensor) result.sensor_covariance = covarianceOf(at.sensorAt(), 4);
 }
 
 }  // namespace
@@ -83,7 +89,7 @@ Smoothing smooth(Drive& drive, double gate_probability) {
   settle(drive, gate_probability, result);
   mend(drive, gate_probability, result);
   mergeDuplicates(drive, gate_probability, result);
-  if (drive.points_world.size() <= kMostCovariances) result.covariance = pointCovariance(drive);
+  if (drive.points_world.size() <= kMostCovariances || drive.sensor) addCovariances(drive, result);
   return result;
 }
 

@@ -18,22 +18,16 @@ Block* State::find(LandmarkId id) {
 }
 
 Eigen::VectorXd worldTurn(const State& state) {
-  Eigen::VectorXd G(state.x.size());
-  const auto point = [&](int offset) {
-    G(offset) = -state.x(offset + 1);
-    G(offset + 1) = state.x(offset);
-  };
-  point(0);
-  G(2) = 1.0;
-  for (const Block& block : state.blocks) {
-    if (block.block_kind == BlockKind::kAxis) {
-      G(block.offset) = 1.0;
-      continue;
+  Eigen::VectorXd G = Eigen::VectorXd::Zero(state.x.size());
+  const auto turn = [&](int offset, BlockLayout layout) {
+    if (layout.point >= 0) {
+      const int at = offset + layout.point;
+      G.segment<2>(at) << -state.x(at + 1), state.x(at);
     }
-    point(block.offset);
-    if (block.size() >= 3) G(block.offset + 2) = 1.0;
-    if (block.size() == 4) G(block.offset + 3) = 0.0;
-  }
+    if (layout.direction >= 0) G(offset + layout.direction) = 1.0;
+  };
+  turn(0, kRobotLayout);
+  for (const Block& block : state.blocks) turn(block.offset, layoutOf(block.block_kind));
   return G;
 }
 

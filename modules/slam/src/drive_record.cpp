@@ -141,11 +141,13 @@ std::optional<DriveRecord::Smoothed> DriveRecord::smoothed(
     drive.prior = known->prior(motions_.front());
     std::fill_n(drive.nameless.begin(), drive.prior->points_world.size(), false);
   }
+  if (options.estimate_sensor) drive.sensor = {{}, options.sensor_sigmas};
   const auto before = drive.points_world;
   result.how = smooth(drive, options.known_gate_probability);
   if (!std::isfinite(result.how.cost) || 2 * result.how.unused >= drive.sightings.size())
     return std::nullopt;
 
+  if (drive.sensor) result.sensor = {drive.sensor->errors, result.how.sensor_covariance};
   std::vector<double> used(drive.points_world.size(), 0.0);
   for (const Drive::Sighting& sighting : drive.sightings)
     if (sighting.used) used[sighting.point] += 1.0;

@@ -36,10 +36,13 @@ struct Resting {
 class Expectation {
  public:
   explicit Expectation(const RangeBearingHypothesis& history) {
-    const auto& blocks = history.filter.state().blocks;
-    for (const Block& block : blocks) {
+    std::vector<double> last_seen_s;
+    for (const Block& block : history.filter.state().blocks) {
+      if (block.block_kind == BlockKind::kSensor) continue;
       comparable_ = comparable_ && block.block_kind == BlockKind::kPoint;
-      if (comparable_) outlooks_.push_back(outlookOf(history, block));
+      if (!comparable_) break;
+      outlooks_.push_back(outlookOf(history, block));
+      last_seen_s.push_back(block.evidence.last_stamp_s);
     }
     const RestingMap& resting = history.filter.resting();
     const Pose2 T_robot_world = history.filter.pose().inverse();
@@ -49,9 +52,8 @@ class Expectation {
                           resting.spread2(block)});
     order_.resize(outlooks_.size());
     std::iota(order_.begin(), order_.end(), std::size_t{0});
-    std::sort(order_.begin(), order_.end(), [&](std::size_t a, std::size_t b) {
-      return blocks[a].evidence.last_stamp_s > blocks[b].evidence.last_stamp_s;
-    });
+    std::sort(order_.begin(), order_.end(),
+              [&](std::size_t a, std::size_t b) { return last_seen_s[a] > last_seen_s[b]; });
   }
 
   /// Whether each of its landmarks is one of the other's, as near as this history is sure of.

@@ -37,7 +37,9 @@ Eigen::Matrix3d lostCovariance() {
 
 RangeBearingHypothesis::RangeBearingHypothesis(const RangeBearingOptions& options,
                                                const FilterOptions& filter_options)
-    : filter(withGate(filter_options, options)), options_(&options) {}
+    : filter(withGate(filter_options, options)), options_(&options) {
+  if (options.estimate_sensor) filter.addSensor(options.sensor_sigmas);
+}
 
 RangeBearingHypothesis::RangeBearingHypothesis(const RangeBearingOptions& options,
                                                const FilterOptions& filter_options,
@@ -51,6 +53,7 @@ RangeBearingHypothesis::RangeBearingHypothesis(const RangeBearingOptions& option
     landmark_of_identity_.emplace(identity, landmark);
   filter.placeRobot(from.T_world_robot, from.covariance);
   if (from.localize) filter.fixMap();
+  if (options.estimate_sensor) filter.addSensor(options.sensor_sigmas);
 }
 
 std::optional<LandmarkId> RangeBearingHypothesis::landmarkOf(int identity) const {

@@ -11,6 +11,7 @@
 #include "colonnade/filter/health.hpp"
 #include "colonnade/filter/landmark_map.hpp"
 #include "colonnade/filter/resting_map.hpp"
+#include "colonnade/filter/sensor_errors.hpp"
 #include "colonnade/filter/state.hpp"
 
 namespace colonnade {
@@ -59,6 +60,10 @@ class EkfSlam {
   /// estimated.
   void fixMap() { fixed_ = state_.x.size() - 3; }
   bool isFixed(LandmarkId block) const;
+  /// From now on the errors of the sensor that reads point landmarks are estimated with everything
+  /// else, from none with these standard deviations. Once.
+  void addSensor(const SensorErrors& sigmas);
+  std::optional<SensorEstimate> sensor() const;
 
   /// Moves the robot by u with covariance Q (x, y, phi in the former robot's axes). Refused: false.
   bool predict(const Pose2& T_previous_robot, const Eigen::Matrix3d& Q);

@@ -16,7 +16,8 @@ enum class BlockKind {
                   ///< (12)
   kFloorLine,     ///< (x, y, alpha, d): m(alpha) . (p - anchor) = d, m the unit normal; eq. (14)
   kAxis,          ///< (angle): direction of a building axis, modulo a quarter turn
-  kPoseClone      ///< (x, y, phi): where the robot was when a bearing was first seen
+  kPoseClone,     ///< (x, y, phi): where the robot was when a bearing was first seen
+  kSensor         ///< SensorErrors: what a range-bearing sensor is always off by
 };
 constexpr int sizeOf(BlockKind kind) {
   switch (kind) {
@@ -24,6 +25,7 @@ constexpr int sizeOf(BlockKind kind) {
       return 2;
     case BlockKind::kInverseDepth:
     case BlockKind::kFloorLine:
+    case BlockKind::kSensor:
       return 4;
     case BlockKind::kAxis:
       return 1;
@@ -32,6 +34,27 @@ constexpr int sizeOf(BlockKind kind) {
   }
   return 0;
 }
+
+/// What a turn of the world turns: where the point (two parameters) and the direction of a block
+/// stand among its parameters; -1: it has none. The other parameters stay.
+struct BlockLayout {
+  int point;
+  int direction;
+};
+constexpr BlockLayout layoutOf(BlockKind kind) {
+  switch (kind) {
+    case BlockKind::kPoint:
+      return {0, -1};
+    case BlockKind::kAxis:
+      return {-1, 0};
+    case BlockKind::kSensor:
+      return {-1, -1};
+    default:
+      return {0, 2};
+  }
+}
+
+constexpr BlockLayout kRobotLayout{0, 2};
 
 /// The parameters of one block, at most four, without a heap allocation.
 using BlockVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 4, 1>;

@@ -9,6 +9,7 @@
 
 #include "colonnade/base/measurement.hpp"
 #include "colonnade/base/pose2.hpp"
+#include "colonnade/filter/sensor_errors.hpp"
 
 namespace colonnade {
 
@@ -33,11 +34,18 @@ struct Drive {
     std::vector<Eigen::Vector2d> points_world;
     Eigen::MatrixXd information_points;  ///< two rows for each of them
   };
+  /// What the sensor is always off by, found with everything else; beforehand none, with
+  /// these standard deviations.
+  struct Sensor {
+    SensorErrors errors;
+    SensorErrors sigmas;
+  };
   std::vector<Pose2> T_world_robot;  ///< one for each frame
   std::vector<Motion> motions;       ///< as many as poses; the first has no say
   std::vector<Eigen::Vector2d> points_world;
   std::vector<Sighting> sightings;
-  std::optional<Prior> prior = {};  ///< none: the first pose is given, the points are anywhere
+  std::optional<Sensor> sensor = {};  ///< none: the sensor is right
+  std::optional<Prior> prior = {};    ///< none: the first pose is given, the points are anywhere
   /// For each point, or empty: whether it may turn out to be one of the others.
   std::vector<bool> nameless = {};
 };
@@ -57,6 +65,7 @@ struct Smoothing {
   /// Of all points together, two rows for each, square metres, given the first pose or the prior;
   /// empty for more than 500 points.
   Eigen::MatrixXd covariance;
+  Eigen::Matrix4d sensor_covariance = Eigen::Matrix4d::Zero();  ///< of Drive::sensor
 };
 
 /// The likeliest poses and points of a drive given all of its motions and sightings, found from

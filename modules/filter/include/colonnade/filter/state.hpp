@@ -27,7 +27,7 @@ struct Evidence {
 
 /// Where a block of parameters lies in the state vector.
 struct Block {
-  LandmarkId id{};  ///< identity of a landmark, axis or clone; one sequence for all
+  LandmarkId id{};  ///< identity of a landmark, axis, clone or sensor; one sequence for all
   BlockKind block_kind = BlockKind::kPoint;
   LandmarkKind landmark_kind = LandmarkKind::kPillarEdge;  ///< landmarks only
   int offset = 0;
@@ -35,7 +35,8 @@ struct Block {
 
   int size() const { return sizeOf(block_kind); }
   bool isLandmark() const {
-    return block_kind != BlockKind::kAxis && block_kind != BlockKind::kPoseClone;
+    return block_kind == BlockKind::kPoint || block_kind == BlockKind::kInverseDepth ||
+           block_kind == BlockKind::kFloorLine;
   }
 };
 
@@ -58,6 +59,7 @@ struct State {
   Eigen::VectorXd x = Eigen::Vector3d::Zero();
   Eigen::MatrixXd P = Eigen::Matrix3d::Zero();  ///< symmetric, both triangles kept
   std::vector<Block> blocks;
+  std::optional<LandmarkId> sensor;  ///< its block (kSensor), where its errors are estimated
   std::optional<Transfer> transfer;  ///< only while a part of the map rests
 
   Pose2 T_world_robot() const { return {x(0), x(1), x(2)}; }
@@ -68,7 +70,7 @@ struct State {
 };
 
 /// G(x): how the whole state moves under a turn of the world about its origin, per radian:
-/// (-y, x) for every point, 1 for every direction, 0 for distances along a ray or a normal.
+/// (-y, x) for every point, 1 for every direction, 0 for all else.
 Eigen::VectorXd worldTurn(const State& state);
 
 }  // namespace colonnade

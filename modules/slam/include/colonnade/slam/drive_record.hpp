@@ -28,6 +28,7 @@ class DriveRecord {
     Eigen::MatrixXd covariance;
     /// Landmarks founded twice that are no more in the map, and those of the map they are.
     std::map<LandmarkId, LandmarkId> merged;
+    std::optional<SensorEstimate> sensor;  ///< where its errors are estimated
     Smoothing how;
   };
   /// The drive past the landmarks the estimator knows at the end, with its last word on which

@@ -45,6 +45,10 @@ class RangeBearingSession {
   const PlaceSearch* search() const { return search_ ? &*search_ : nullptr; }
   /// What a later run needs to go on: smoothed, once it is, up to 500 landmarks.
   SavedMap savedMap() const;
+  /// What the sensor is always off by, where that is estimated; smoothed, once it is.
+  std::optional<SensorEstimate> sensor() const {
+    return smoothed_ ? smoothed_->sensor : filter().sensor();
+  }
   std::size_t axisCount() const { return 0; }
   /// The decisions against the identities of the log, also where those are hidden from the filter.
   IdentityScore identityScore() const;
