@@ -3,6 +3,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # scripts/hidden_settings.sh MRCLAM_FOLDER OUTPUT [BUILD]: the robots of a UTIAS MRCLAM data set with
 # hidden identities under several settings, a line of Markdown for each, and the mean of all.
+# SETTINGS in the environment are further options of run, such as "--set RangeBearing.estimate_sensor=true".
 set -eu
 data=$1 out=$2 build=${3:-build/release}
 colonnade=$build/apps/colonnade/colonnade
@@ -21,7 +22,7 @@ for setting in "0.05 0.6 40" "0.05 1.0 40" "0.07 1.0 40" "0.1 1.0 40" "0.05 0.6 
   row="| $1 m, $2 degrees, $3 |"
   for robot in $robots; do
     run=$out/$robot-$1-$2-$3
-    [ -e "$run" ] || "$colonnade" run "$out/robot$robot.rawlog" -o "$run" --ground-truth "$out/robot${robot}_ground_truth.tum" \
+    [ -e "$run" ] || "$colonnade" run "$out/robot$robot.rawlog" ${SETTINGS:-} -o "$run" --ground-truth "$out/robot${robot}_ground_truth.tum" \
       --set RangeBearing.use_ids=false --set RangeBearing.range_sigma_m="$1" --set RangeBearing.bearing_sigma_deg="$2" \
       --set RangeBearing.hypotheses="$3" >"$run.txt" 2>&1
     row="$row $(python3 -c '

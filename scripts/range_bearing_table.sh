@@ -3,6 +3,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # scripts/range_bearing_table.sh MRCLAM_FOLDER OUTPUT [BUILD]: the robots of a UTIAS MRCLAM data set
 # through Colonnade and MRPT's kf-slam with one set of sigmas; one line of Markdown for each run.
+# SETTINGS in the environment are further options of run, such as "--set RangeBearing.estimate_sensor=true".
 set -eu
 data=$1 out=$2 build=${3:-build/release}
 colonnade=$build/apps/colonnade/colonnade
@@ -54,7 +55,7 @@ for robot in 1 2 3 4 5; do
       c) name="c) identities hidden" set="RangeBearing.use_ids=false" ;;
     esac
     folder=$out/$robot$method
-    [ -e "$folder" ] || "$colonnade" run "$log" -o "$folder" --set $set >"$folder.txt" 2>&1
+    [ -e "$folder" ] || "$colonnade" run "$log" ${SETTINGS:-} -o "$folder" --set $set >"$folder.txt" 2>&1
     figures $robot "$name" "$folder/trajectory.tum" "$folder/landmarks.csv" "$folder/summary.json" \
       "$folder/trajectory_final.tum"
   done

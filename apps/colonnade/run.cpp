@@ -190,6 +190,12 @@ Eigen::Matrix3d poseCovarianceOf(const RangeBearingSession& session) {
   return session.estimator().poseCovariance();
 }
 
+/// StampedCovariance::T_world_origin.
+Pose2 worldOriginOf(const Session&) { return {}; }
+Pose2 worldOriginOf(const RangeBearingSession& session) {
+  return session.estimator().worldOrigin();
+}
+
 struct RunInputs {
   const RunArguments& arguments;
   const RunOptions& options;
@@ -260,7 +266,7 @@ ExitCode runSession(AnySession& session, FrameSource& source, const RunInputs& i
 
   session.run(source, [&](const Frame& frame, const StepReport& report, const AnySession& now) {
     recorder.add(frame, report, now.search() ? std::nullopt : std::optional(poseOf(now)),
-                 poseCovarianceOf(now));
+                 poseCovarianceOf(now), worldOriginOf(now));
     maps.add(frame, poseOf(now), poseCovarianceOf(now), report.motion.T_previous_robot,
              report.motion.covariance);
     progress.show(source.progress(), recorder.frames(),

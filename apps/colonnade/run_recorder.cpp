@@ -8,15 +8,15 @@
 namespace colonnade {
 
 void RunRecorder::add(const Frame& frame, const StepReport& report,
-                      const std::optional<Pose2>& T_world_robot,
-                      const Eigen::Matrix3d& covariance) {
+                      const std::optional<Pose2>& T_world_robot, const Eigen::Matrix3d& covariance,
+                      const Pose2& T_world_origin) {
   if (T_world_robot) {
     const StampedPose pose{frame.stamp_s, T_world_robot->toIsometry3()};
     if (!trajectory_.empty())
       path_length_m_ +=
           (pose.T_world_body.translation() - trajectory_.back().T_world_body.translation()).norm();
     trajectory_.push_back(pose);
-    covariances_.push_back({frame.stamp_s, covariance});
+    covariances_.push_back({frame.stamp_s, covariance, T_world_origin});
   }
   if (!T_world_robot) path_length_m_ += report.motion.T_previous_robot.translation().norm();
   if (times_.empty()) first_stamp_s_ = frame.stamp_s;

@@ -22,7 +22,7 @@ class RunRecorder {
   /// Without a pose, as long as nobody knows where in a map the robot is, it has no place in the
   /// trajectory.
   void add(const Frame& frame, const StepReport& report, const std::optional<Pose2>& T_world_robot,
-           const Eigen::Matrix3d& covariance);
+           const Eigen::Matrix3d& covariance, const Pose2& T_world_origin);
   /// trajectory.tum, trajectory_covariance.csv, trajectory_final.tum (`final`), events.csv.
   void write(const std::filesystem::path& folder, const Trajectory& final) const;
 

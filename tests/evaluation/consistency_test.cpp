@@ -113,6 +113,34 @@ DeadReckoning deadReckoning(unsigned seed) {
   return run;
 }
 
+/// Covariances are about the world as it was at the start: where it lies by then is told.
+TEST(Consistency, IsTheSameWhenTheWorldMovesAlongWithTheMap) {
+  for (const Alignment alignment : {Alignment::kSe2, Alignment::kNone}) {
+    EvaluationOptions options;
+    options.alignment = alignment;
+    DeadReckoning run = deadReckoning(7);
+    const auto still = evaluateTrajectory(run.estimate, run.truth, options, run.covariances);
+    for (std::size_t i = run.estimate.size() / 3; i < run.estimate.size(); ++i) {
+      const Pose2 T_new_old{0.4, -0.2, i > run.estimate.size() / 2 ? 0.35 : 0.1};
+      StampedCovariance& row = run.covariances[i];
+      Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+      R.topLeftCorner<2, 2>() = T_new_old.rotation();
+      row.T_world_origin = T_new_old;
+      row.covariance = R * row.covariance * R.transpose();
+      run.estimate[i].T_world_body = T_new_old.toIsometry3() * run.estimate[i].T_world_body;
+    }
+    const auto moved = evaluateTrajectory(run.estimate, run.truth, options, run.covariances);
+    EXPECT_NEAR(*moved.nees_mean, *still.nees_mean, 1e-9);
+    EXPECT_EQ(moved.nees_poses, still.nees_poses);
+    EXPECT_FALSE(moved.anchor);  // for the map lies in the world of the end
+
+    const TemporaryFolder folder;
+    writeCovarianceCsv(folder / "covariance.csv", run.covariances);
+    const auto rows = readCovarianceCsv(folder / "covariance.csv");
+    EXPECT_NEAR(rows.back().T_world_origin.phi, 0.35, 1e-12);
+  }
+}
+
 double meanNees(int late_poses, Alignment alignment = Alignment::kSe2) {
   EvaluationOptions options;
   options.alignment = alignment;

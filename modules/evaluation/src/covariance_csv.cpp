@@ -12,16 +12,18 @@ namespace colonnade {
 namespace {
 
 constexpr const char* kHeader = "stamp,xx,xy,xphi,yy,yphi,phiphi";
+constexpr const char* kOrigin = "origin_x,origin_y,origin_phi";
 
 }  // namespace
 
 void writeCovarianceCsv(const std::filesystem::path& path,
                         const std::vector<StampedCovariance>& covariances) {
-  std::string text = std::string(kHeader) + "\n";
+  std::string text = std::string(kHeader) + "," + kOrigin + "\n";
   for (const auto& row : covariances) {
     const auto& P = row.covariance;
+    const Pose2& T = row.T_world_origin;
     text += formatFixed(row.stamp_s, 6);
-    for (const double value : {P(0, 0), P(0, 1), P(0, 2), P(1, 1), P(1, 2), P(2, 2)})
+    for (const double value : {P(0, 0), P(0, 1), P(0, 2), P(1, 1), P(1, 2), P(2, 2), T.x, T.y, T.phi})
       text += "," + formatDouble(value, 12);
     text += "\n";
   }
@@ -40,6 +42,9 @@ std::vector<StampedCovariance> readCovarianceCsv(const std::filesystem::path& pa
     const double yy = entry->number("yy"), yphi = entry->number("yphi");
     const double phiphi = entry->number("phiphi");
     row.covariance << xx, xy, xphi, xy, yy, yphi, xphi, yphi, phiphi;
+    if (entry->has("origin_x"))
+      row.T_world_origin = {entry->number("origin_x"), entry->number("origin_y"),
+                            entry->number("origin_phi")};
     rows.push_back(row);
   }
   return rows;

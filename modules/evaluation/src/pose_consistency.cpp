@@ -15,30 +15,48 @@ namespace {
 constexpr double kChiSquared3At95 = 7.815;
 constexpr double kSameRow_s = 1e-5;  ///< the stamps of files carry microseconds
 
-const Eigen::Matrix3d* covarianceAt(const std::vector<StampedCovariance>& covariances,
-                                    double stamp_s) {
+const StampedCovariance* covarianceAt(const std::vector<StampedCovariance>& covariances,
+                                      double stamp_s) {
   const auto row =
       std::lower_bound(covariances.begin(), covariances.end(), stamp_s - kSameRow_s,
                        [](const auto& entry, double stamp) { return entry.stamp_s < stamp; });
   if (row == covariances.end() || row->stamp_s > stamp_s + kSameRow_s) return nullptr;
-  return &row->covariance;
+  return &*row;
+}
+
+/// A pose with its covariance in the world as it was at the start, which the covariance is about.
+struct JudgedPose {
+  PosePair pair;
+  Eigen::Matrix3d covariance;
+};
+std::optional<JudgedPose> judged(const PosePair& pair,
+                                 const std::vector<StampedCovariance>& covariances) {
+  const StampedCovariance* row = covarianceAt(covariances, pair.stamp_s);
+  if (!row) return std::nullopt;
+  JudgedPose pose{pair, {}};
+  pose.pair.T_estimate_body = row->T_world_origin.inverse().toIsometry3() * pair.T_estimate_body;
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+  R.topLeftCorner<2, 2>() = row->T_world_origin.rotation().transpose();
+  pose.covariance = R * row->covariance * R.transpose();
+  return pose;
 }
 
 /// Where both worlds are one already nothing is laid on anything; else the first matched poses are,
 /// if the file says how sure the estimate was there.
-std::optional<Anchor> anchorOf(const PosePair& first, Alignment alignment,
-                               const Eigen::Matrix3d* covariance) {
+std::optional<Anchor> anchorOf(const std::optional<JudgedPose>& first, Alignment alignment) {
   Anchor anchor;
   if (alignment == Alignment::kNone) return anchor;
-  if (!covariance) return std::nullopt;
-  anchor.T_estimate_body = planarPart(first.T_estimate_body);
-  anchor.T_truth_estimate = planarPart(first.T_truth_body * first.T_estimate_body.inverse());
-  anchor.covariance = *covariance;
+  if (!first) return std::nullopt;
+  const auto& [pair, covariance] = *first;
+  anchor.T_estimate_body = planarPart(pair.T_estimate_body);
+  anchor.T_truth_estimate = planarPart(pair.T_truth_body * pair.T_estimate_body.inverse());
+  anchor.covariance = covariance;
   return anchor;
 }
 
-std::optional<double> squaredError(const PosePair& pair, const Eigen::Isometry3d& T_estimate_truth,
-                                   const Eigen::Matrix3d& covariance) {
+std::optional<double> squaredError(const JudgedPose& pose,
+                                   const Eigen::Isometry3d& T_estimate_truth) {
+  const auto& [pair, covariance] = pose;
   const Eigen::LLT<Eigen::Matrix3d> factor(covariance);
   if (factor.info() != Eigen::Success || factor.matrixLLT()(2, 2) <= 0.0) return std::nullopt;
   const Pose2 truth = planarPart(T_estimate_truth * pair.T_truth_body);
@@ -67,7 +85,8 @@ void scoreConsistency(const std::vector<PosePair>& pairs,
                       const std::vector<StampedCovariance>& covariances, TrajectoryScore& score) {
   if (covariances.empty()) return;
   const PosePair& first = pairs.front();
-  score.anchor = anchorOf(first, score.alignment, covarianceAt(covariances, first.stamp_s));
+  const auto judged_first = judged(first, covariances);
+  score.anchor = anchorOf(judged_first, score.alignment);
   if (!score.anchor) {
     score.nees_refused =
         "no covariance at " + formatFixed(first.stamp_s, 3) +
@@ -76,16 +95,18 @@ void scoreConsistency(const std::vector<PosePair>& pairs,
   }
   const bool one_world = score.alignment == Alignment::kNone;
   const Eigen::Isometry3d T_estimate_truth =
-      one_world ? Eigen::Isometry3d::Identity()
-                : Eigen::Isometry3d(first.T_estimate_body * first.T_truth_body.inverse());
+      one_world
+          ? Eigen::Isometry3d::Identity()
+          : Eigen::Isometry3d(judged_first->pair.T_estimate_body * first.T_truth_body.inverse());
   double sum = 0.0;
   double within = 0.0;
   for (const auto& pair : pairs) {
-    const Eigen::Matrix3d* covariance = covarianceAt(covariances, pair.stamp_s);
-    if (!covariance) continue;
-    const auto nees = squaredError(pair, T_estimate_truth, *covariance);
+    const auto pose = judged(pair, covariances);
+    if (!pose) continue;
+    const auto nees = squaredError(*pose, T_estimate_truth);
     if (!nees) continue;
-    if (!score.anchor->serves(pair.T_estimate_body.translation().head<2>(), *covariance)) {
+    if (!score.anchor->serves(pose->pair.T_estimate_body.translation().head<2>(),
+                              pose->covariance)) {
       ++score.nees_left_out;
       continue;
     }
@@ -106,6 +127,11 @@ void scoreConsistency(const std::vector<PosePair>& pairs,
   const auto count = static_cast<double>(score.nees_poses);
   score.nees_mean = sum / count / 3.0;
   score.nees_share_within_95 = within / count;
+  // A map lies in the world as it is at the end.
+  const auto moved = [](const StampedCovariance& row) {
+    return !row.T_world_origin.vector().isZero(0.0);
+  };
+  if (std::any_of(covariances.begin(), covariances.end(), moved)) score.anchor.reset();
 }
 
 }  // namespace colonnade

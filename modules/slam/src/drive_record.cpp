@@ -8,11 +8,15 @@
 #include <numeric>
 #include <utility>
 
+#include "colonnade/filter/gate.hpp"
 #include "known_map.hpp"
 #include "range_bearing_world.hpp"
 
 namespace colonnade {
 namespace {
+
+constexpr double kSuspect = 0.999999;
+constexpr double kWorthwhile = 0.01;  ///< share of the cost
 
 /// The same drive past fewer points, in this order; all of its sightings are of them.
 void keepPoints(Drive& drive, const std::vector<std::size_t>& kept) {
@@ -78,6 +82,19 @@ void place(const std::vector<Eigen::Vector2d>& points, const std::vector<double>
     else
       standAlone(C, i, landmark.covariance);
   }
+}
+
+/// What the sensor seems to be off by, given that it was taken to be right: with errors estimated
+/// the cost falls by more than noise explains, and not by next to nothing.
+std::optional<SensorEstimate> suspectedErrors(Drive drive, double cost,
+                                              const RangeBearingOptions& options) {
+  drive.sensor = {{}, options.sensor_sigmas};
+  drive.nameless.clear();
+  const Smoothing how = smooth(drive, options.known_gate_probability);
+  const double noise = chiSquareQuantile(kSuspect, 4);
+  if (!how.converged || !(cost - how.cost > std::max(noise, kWorthwhile * cost)))
+    return std::nullopt;
+  return SensorEstimate{drive.sensor->errors, how.sensor_covariance};
 }
 
 }  // namespace
@@ -147,7 +164,10 @@ std::optional<DriveRecord::Smoothed> DriveRecord::smoothed(
   if (!std::isfinite(result.how.cost) || 2 * result.how.unused >= drive.sightings.size())
     return std::nullopt;
 
-  if (drive.sensor) result.sensor = {drive.sensor->errors, result.how.sensor_covariance};
+  if (drive.sensor)
+    result.sensor = {drive.sensor->errors, result.how.sensor_covariance};
+  else
+    result.suspected = suspectedErrors(drive, result.how.cost, options);
   std::vector<double> used(drive.points_world.size(), 0.0);
   for (const Drive::Sighting& sighting : drive.sightings)
     if (sighting.used) used[sighting.point] += 1.0;

@@ -200,6 +200,7 @@ Pose2 RangeBearingEstimator::pose() const {
   const auto& hypothesis = impl_->hypotheses.front();
   return hypothesis.T_world_start * hypothesis.filter.pose();
 }
+Pose2 RangeBearingEstimator::worldOrigin() const { return impl_->hypotheses.front().T_world_start; }
 Eigen::Matrix3d RangeBearingEstimator::poseCovariance() const {
   Eigen::Matrix3d J = Eigen::Matrix3d::Identity();
   J.topLeftCorner<2, 2>() = turnOf(impl_->hypotheses.front());

@@ -3,13 +3,40 @@
 #include "colonnade/slam/range_bearing_session.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <utility>
 
+#include "colonnade/base/text.hpp"
 #include "colonnade/filter/covariance.hpp"
 #include "stopwatch.hpp"
 
 namespace colonnade {
+namespace {
+
+constexpr double kSure = 3.0;  ///< deviations
+
+/// Those errors of a sensor that are sure, in words.
+std::string described(const SensorEstimate& sensor) {
+  const SensorErrors& e = sensor.errors;
+  const Eigen::Vector4d values = e.vector();
+  std::vector<std::string> parts;
+  const auto add = [&](int i, double shown, int digits, const char* more, const char* less) {
+    if (std::abs(values(i)) > kSure * std::sqrt(sensor.covariance(i, i)))
+      parts.push_back(formatFixed(std::abs(shown), digits) + (values(i) > 0.0 ? more : less));
+  };
+  add(0, e.range_offset_m, 3, " m long", " m short");
+  add(1, 100.0 * e.range_scale, 1, " % long", " % short");
+  add(2, 100.0 * e.range_skew, 1, " % longer for each radian to the left",
+      " % shorter for each radian to the left");
+  const std::string ranges = parts.empty() ? "" : "ranges " + joined(parts, ", ");
+  parts.clear();
+  add(3, 100.0 * e.bearing_scale, 1, " % wide", " % narrow");
+  const std::string bearings = parts.empty() ? "" : "bearings " + parts.front();
+  return ranges + (ranges.empty() || bearings.empty() ? "" : "; ") + bearings;
+}
+
+}  // namespace
 
 RangeBearingSession::RangeBearingSession(const RangeBearingOptions& options,
                                          const FilterOptions& filter, const MotionOptions& motion,
@@ -127,6 +154,10 @@ SavedMap RangeBearingSession::savedMap() const {
 
 std::vector<std::string> RangeBearingSession::notes() const {
   std::vector<std::string> notes;
+  if (smoothed_ && smoothed_->suspected)
+    if (const std::string errors = described(*smoothed_->suspected); !errors.empty())
+      notes.push_back("the sensor seems to read " + errors +
+                      "; if it is not the wheels, RangeBearing.estimate_sensor=true corrects that");
   if (!from_ || search_) return notes;
   const auto decisions = estimator_.decisions();
   const auto known = std::count_if(decisions.begin(), decisions.end(),

@@ -23,6 +23,7 @@ class CsvTable {
 
   class Row {
    public:
+    bool has(const char* column) const { return columns_->contains(column); }
     const std::string& text(const char* column) const;
     bool empty(const char* column) const { return text(column).empty(); }
     double number(const char* column) const;  ///< finite

@@ -83,7 +83,8 @@ struct TrajectoryScore {
   std::size_t nees_poses = 0;
   std::size_t nees_left_out = 0;  ///< poses the anchor does not serve
   std::string nees_refused;       ///< why covariances gave no NEES; empty otherwise
-  std::optional<Anchor> anchor;   ///< what NEES is judged in; absent without covariances
+  /// What NEES of a map is judged in; absent without covariances, and where the world moved.
+  std::optional<Anchor> anchor;
   SpanScore span;
   double coverage = 0.0;  ///< share of the truth's time span that matched poses cover
   std::size_t matched = 0;
@@ -97,7 +98,8 @@ struct TrajectoryScore {
 
 /// Scores an estimate. Truth is interpolated at the estimate's stamps (linear, and along the
 /// shortest rotation); stamps outside it or in a gap are not matched. With `covariances` (of x, y,
-/// phi in the estimate's world, matched by stamp) the consistency is scored too. For it alone the
+/// phi in the estimate's world, matched by stamp) the consistency is scored too, in the world as it
+/// was at the start (StampedCovariance::T_world_origin). For it alone the
 /// truth is moved so that its first matched pose is the estimate's (alignment none: it is taken as
 /// it is). A filter starts without doubt; if the truth starts late it is in doubt there, so poses
 /// the anchor does not serve are left out, and more of them than served ones refuse the NEES. Poses

@@ -29,6 +29,8 @@ class DriveRecord {
     /// Landmarks founded twice that are no more in the map, and those of the map they are.
     std::map<LandmarkId, LandmarkId> merged;
     std::optional<SensorEstimate> sensor;  ///< where its errors are estimated
+    /// Where they are not: what would make the readings fit far better.
+    std::optional<SensorEstimate> suspected;
     Smoothing how;
   };
   /// The drive past the landmarks the estimator knows at the end, with its last word on which

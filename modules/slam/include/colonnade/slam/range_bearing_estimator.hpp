@@ -65,6 +65,9 @@ class RangeBearingEstimator {
   const EkfSlam& filter() const;
   Pose2 pose() const;
   Eigen::Matrix3d poseCovariance() const;
+  /// That motion: where the filter's world lies in that of pose(), whose covariance is about the
+  /// filter's.
+  Pose2 worldOrigin() const;
   LandmarkMap map() const;
   /// What a later run needs to go on; in the world of map().
   SavedMap savedMap() const;

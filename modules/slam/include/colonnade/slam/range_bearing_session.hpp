@@ -38,8 +38,8 @@ class RangeBearingSession {
   LandmarkMap map() const;
   /// Every frame as it was known at its moment, or, before its place was found, when that was.
   const Trajectory& trajectory() const { return trajectory_; }
-  /// Why the drive was not smoothed though it should be, or that the start may be wrong; a line
-  /// each.
+  /// Why the drive was not smoothed though it should be, that the start may be wrong or the sensor
+  /// off; a line each.
   std::vector<std::string> notes() const;
   /// As long as nobody knows where in the map that was loaded the robot is; then nullptr.
   const PlaceSearch* search() const { return search_ ? &*search_ : nullptr; }
