@@ -82,4 +82,5 @@ def main():
             share_right(readings, landmarks, gain, turn, off[one_sigma], aside[one_sigma])))
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -30,6 +30,18 @@ TEST_F(RangeBearingRun, MapsARealRobotFromItsReadings) {
   for (const char* file : {"trajectory.tum", "trajectory_covariance.csv", "landmarks.csv"})
     EXPECT_EQ(contentOf(folder_ / "known" / file), contentOf(folder_ / "again" / file)) << file;
 
+  // The ranges of this robot are long.
+  EXPECT_NE(known.err.find("the sensor seems to read ranges 3."), std::string::npos) << known.err;
+  const Outcome estimated = colonnade(run + "-o estimated --set RangeBearing.estimate_sensor=true");
+  ASSERT_EQ(estimated.exit_code, 0) << estimated.err;
+  EXPECT_EQ(estimated.err.find("seems"), std::string::npos) << estimated.err;
+  EXPECT_NE(estimated.out.find("sensor     ranges"), std::string::npos) << estimated.out;
+  const auto of = summary("estimated");
+  EXPECT_NEAR(of["sensor"]["range_scale"]["estimate"].get<double>(), 0.035, 0.015);
+  for (const char* when : {"trajectory", "trajectory_final"})
+    EXPECT_LT(of[when]["ate_rmse_m"].get<double>(),
+              0.8 * summary("known")[when]["ate_rmse_m"].get<double>());
+
   const Outcome contradiction = colonnade(
       run + "-o none --set RangeBearing.use_ids=false --set RangeBearing.bearing_only=true");
   EXPECT_EQ(contradiction.exit_code, 2);

@@ -39,6 +39,10 @@ Errors errorsOf(FrameSource& source, const Trajectory& truth, const RangeBearing
           evaluateTrajectory(session.smoothed()->trajectory, truth).ate_rmse_m};
 }
 
+double ateOf(const RangeBearingSession& session, const Trajectory& truth) {
+  return evaluateTrajectory(session.smoothed()->trajectory, truth).ate_rmse_m;
+}
+
 TEST(RangeBearingSmoothing, TheWholeLogKnowsEarlierPosesBetter) {
   for (const bool known : {true, false}) {
     RangeBearingOptions options;
@@ -100,6 +104,44 @@ TEST(RangeBearingSmoothing, AnInterruptedRunIsNotSmoothed) {
   session.run(source, [](const Frame& frame, const auto&...) { return frame.stamp_s < 20.0; });
   EXPECT_FALSE(session.smoothed());
   EXPECT_FALSE(session.map().empty());
+}
+
+/// A sensor that is off is named; where its errors are estimated they are found, and the map is
+/// free of them.
+TEST(RangeBearingSmoothing, WhatTheSensorIsOffByIsFound) {
+  const SensorErrors off{0.04, 0.0, -0.06, 0.03};
+  double with_m = 0.0, without_m = 0.0;
+  for (unsigned seed = 1; seed <= 5; ++seed) {
+    const auto longDrive = [&] { return RingOfPosts(seed, 0, 4 * RingOfPosts::kSteps, 5.0, 0.9); };
+    RingOfPosts source = longDrive(), again = longDrive(), right = longDrive();
+    source.sensor = again.sensor = off;
+    RangeBearingOptions options;
+    RangeBearingSession taken_as_right(options, {}, {});
+    taken_as_right.run(source, [](const auto&...) { return true; });
+    ASSERT_EQ(taken_as_right.notes().size(), 1u) << seed;
+    EXPECT_NE(taken_as_right.notes().front().find("shorter for each radian"), std::string::npos)
+        << taken_as_right.notes().front();
+    EXPECT_FALSE(taken_as_right.sensor());
+    without_m += ateOf(taken_as_right, source.truth);
+
+    RangeBearingSession of_right_sensor(options, {}, {});
+    of_right_sensor.run(right, [](const auto&...) { return true; });
+    EXPECT_TRUE(of_right_sensor.notes().empty());
+
+    options.estimate_sensor = true;
+    RangeBearingSession estimated(options, {}, {});
+    estimated.run(again, [](const auto&...) { return true; });
+    EXPECT_TRUE(estimated.notes().empty());
+    ASSERT_TRUE(estimated.sensor());
+    const auto sensor = *estimated.sensor();
+    EXPECT_LT(std::abs(sensor.errors.range_skew - off.range_skew),
+              4.0 * std::sqrt(sensor.covariance(2, 2)));
+    EXPECT_LT(std::sqrt(sensor.covariance(2, 2)), 0.015);
+    with_m += ateOf(estimated, again.truth);
+    for (const Block& block : estimated.savedMap().state.blocks)
+      EXPECT_EQ(block.block_kind, BlockKind::kPoint);
+  }
+  EXPECT_LT(with_m, 0.8 * without_m);
 }
 
 /// Motions the filter did not take are no part of the drive.

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "colonnade/base/trajectory.hpp"
+#include "colonnade/filter/sensor_errors.hpp"
 #include "colonnade/frames/frame_source.hpp"
 
 namespace colonnade::testing {
@@ -36,8 +37,13 @@ class RingOfPosts : public FrameSource {
       const Eigen::Vector2d p = transform(T_world_robot_.inverse(), post(i + 1));
       const double bearing = std::atan2(p.y(), p.x());
       if (truth.size() < blind || p.norm() > reach_m_ || std::abs(bearing) > half_angle_) continue;
+      const double gain = 1.0 + sensor.range_scale + sensor.range_skew * bearing;
       frame.range_bearing->readings.push_back(
-          {i + 1, p.norm() + gauss(0.05), bearing + gauss(radians(1.0)), 0.0, {}});
+          {i + 1,
+           gain * p.norm() + sensor.range_offset_m + gauss(0.05),
+           (1.0 + sensor.bearing_scale) * bearing + gauss(radians(1.0)),
+           0.0,
+           {}});
     }
     if (truth.size() == ghost_at || truth.size() == ghost_at + 1)  // 3 m apart
       frame.range_bearing->readings.push_back(
@@ -65,6 +71,7 @@ class RingOfPosts : public FrameSource {
   static constexpr int kPosts = 24;
   Trajectory truth;
   std::size_t blind = 0;  ///< frames at the start that show nothing
+  SensorErrors sensor;    ///< what the readings are always off by
   /// A frame after which a post that is none is seen at two places.
   std::size_t ghost_at = std::numeric_limits<std::size_t>::max() - 1;
 
