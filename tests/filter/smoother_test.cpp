@@ -250,6 +250,47 @@ TEST(Smoother, PointsFoundedTwiceBecomeOne) {
   }
 }
 
+/// Of all points of the drive, each known so well.
+Drive::Prior priorOf(const SimulatedDrive& drive, double sigma_m) {
+  const auto numbers = static_cast<Eigen::Index>(2 * drive.start.points_world.size());
+  return {drive.truth.T_world_robot.front(), 1e4 * Eigen::Matrix3d::Identity(),
+          drive.truth.points_world,
+          Eigen::MatrixXd::Identity(numbers, numbers) / (sigma_m * sigma_m)};
+}
+
+/// As far as what is known of the two lets them be one.
+TEST(Smoother, WhatAPriorHoldsTwiceBecomesOne) {
+  for (unsigned seed = 60; seed < 66; ++seed) {
+    for (const bool is_twice : {true, false}) {
+      SimulatedDrive drive = simulatedDrive(seed);
+      Drive& d = drive.start;
+      const Eigen::Vector2d beside(0.12, 0.0);
+      foundTwice(d, 4, 20, beside);
+      drive.truth.points_world.emplace_back(drive.truth.points_world[4] + beside);
+      if (!is_twice)  // what is seen later is the other one
+        for (auto& sighting : d.sightings) {
+          if (sighting.point != 12) continue;
+          sighting.measurement.z +=
+              predictMeasurement(drive.truth.T_world_robot[sighting.pose], BlockKind::kPoint,
+                                 drive.truth.points_world[12], sighting.measurement)
+                  .z -
+              predictMeasurement(drive.truth.T_world_robot[sighting.pose], BlockKind::kPoint,
+                                 drive.truth.points_world[4], sighting.measurement)
+                  .z;
+        }
+      d.prior = priorOf(drive, is_twice ? 0.1 : 0.01);
+      const Smoothing result = smooth(d, kGate);
+      EXPECT_EQ(result.merged.size(), is_twice ? 1u : 0u) << seed;
+      EXPECT_EQ(d.one.size(), result.merged.size());
+      EXPECT_EQ((d.points_world[4] - d.points_world[12]).norm() < 1e-3, is_twice);
+      const auto rows = result.covariance.rows();
+      EXPECT_EQ(result.covariance.diagonal().segment<2>(8).isApprox(
+                    result.covariance.diagonal().segment<2>(rows - 2), 1e-3),
+                is_twice);
+    }
+  }
+}
+
 /// Of a point 0.12 m beside another only those seen together can be told; one 0.3 m beside can,
 /// seen together or not. A name that was read thrice is not taken by what is seen often beside it.
 TEST(Smoother, NeighboursStayTwo) {

@@ -185,6 +185,34 @@ TEST_F(ReadingMaps, GrowBetterAndNotLarger) {
   EXPECT_LT(after, 0.95 * before);
 }
 
+/// A map that holds a post twice, in a place each, is rid of the second when the drive goes on in
+/// it; one that is left as it is keeps both.
+TEST_F(ReadingMaps, AreRidOfWhatTheyHoldTwice) {
+  for (const bool localize : {false, true}) {
+    Resumption from = resumption(localize);
+    from.map.identities.clear();
+    State& state = from.map.state;
+    const Block post = state.blocks[5];
+    Block twin = post;
+    twin.id = LandmarkId{number(state.blocks.back().id) + 1};
+    augment(state, twin, state.values(post) + Eigen::Vector2d(0.25, 0.1),
+            SparseJacobian(2).add(0, post.offset, Eigen::Matrix2d::Identity()),
+            0.15 * 0.15 * Eigen::Matrix2d::Identity());
+    RangeBearingOptions options;
+    options.use_ids = false;
+    RingOfPosts source = ring(6);
+    const Day day = drive(source, options, from);
+    const bool is_there =
+        std::any_of(day.map.begin(), day.map.end(), [&](const auto& l) { return l.id == twin.id; });
+    const bool other_is_there =
+        std::any_of(day.map.begin(), day.map.end(), [&](const auto& l) { return l.id == post.id; });
+    EXPECT_EQ(day.map.size(), firstDay().map.size() + (localize ? 1u : 0u));
+    EXPECT_EQ(is_there && other_is_there, localize);
+    EXPECT_TRUE(is_there || other_is_there);
+    EXPECT_EQ(day.saved.state.blocks.size(), day.map.size());
+  }
+}
+
 TEST_F(ReadingMaps, TakeInWhatWasNotInThem) {
   RingOfPosts half = ring(4, 0, RingOfPosts::kSteps / 2);
   const Day first = drive(half, {});

@@ -117,16 +117,25 @@ struct Pair {
   double distance_m = 0.0;
 };
 
-/// Nearest first. Of two without a name the rarer one is merged into the other.
+bool isKnown(const Drive& drive, std::size_t point) {
+  return drive.prior && point < drive.prior->points_world.size();
+}
+
+/// Nearest first. Of two without a name the one known beforehand stays, or else the rarer one is
+/// merged into the other.
 std::vector<Pair> nearPairs(const Drive& drive, const Company& seen) {
+  const auto goesFirst = [&](std::size_t a, std::size_t b) {
+    if (!drive.nameless[b]) return true;
+    if (isKnown(drive, a) != isKnown(drive, b)) return isKnown(drive, b);
+    const std::size_t count_a = seen[a].poses.size(), count_b = seen[b].poses.size();
+    return count_a < count_b || (count_a == count_b && a > b);
+  };
   std::vector<Pair> pairs;
   for (std::size_t a = 0; a < drive.points_world.size(); ++a) {
-    const std::size_t count_a = seen[a].poses.size();
-    if (!drive.nameless[a] || count_a == 0) continue;
+    if (!drive.nameless[a] || seen[a].poses.empty()) continue;
     for (std::size_t b = 0; b < drive.points_world.size(); ++b) {
-      const std::size_t count_b = seen[b].poses.size();
-      const bool is_rarer = count_a < count_b || (count_a == count_b && a > b);
-      if (a == b || count_b == 0 || (drive.nameless[b] && !is_rarer)) continue;
+      if (a == b || seen[b].poses.empty() || !goesFirst(a, b)) continue;
+      if (isKnown(drive, a) && !isKnown(drive, b)) continue;  // what is known of it would be lost
       const double distance_m = (drive.points_world[a] - drive.points_world[b]).norm();
       if (distance_m < kNear * std::sqrt(seen[a].spread2)) pairs.push_back({a, b, distance_m});
     }
@@ -140,6 +149,7 @@ Drive withOnePoint(const Drive& drive, const Pair& pair) {
   Drive one = drive;
   for (Drive::Sighting& sighting : one.sightings)
     if (sighting.point == pair.point) sighting.point = pair.into;
+  if (isKnown(drive, pair.point)) one.one.push_back({pair.point, pair.into});
   return one;
 }
 

@@ -15,7 +15,8 @@ namespace colonnade {
 ///   at the gate and what the noise of the rarer one's sightings costs (correspondence tests of
 ///   Thrun and Montemerlo, The GraphSLAM Algorithm, International Journal of Robotics Research
 ///   25(5-6), 2006, by the cost of the whole drive).
-/// Of two such points the rarer one goes. The nearest pairs are tried first, until
+/// Two points of the prior are one from then on, which costs what the prior says against it. Of two
+/// such points the rarer one goes. The nearest pairs are tried first, until
 /// affordableSteps() are spent. See Smoothing::merged.
 void mergeDuplicates(Drive& drive, double gate_probability, Smoothing& result);
 

@@ -21,6 +21,8 @@ constexpr std::size_t kMotionEntries = 36, kSightingEntries = 25, kPointEntries 
 constexpr double kStandingSigma = 1e-5;  ///< m and rad
 /// Keeps a point that was only seen along one ray where it is.
 constexpr double kLooseSigma_m = 100.0;
+/// Points that are one thing may be this far apart.
+constexpr double kOneSigma_m = 1e-4;
 /// Holds an error of the sensor that is known not to be there.
 constexpr double kKnownSigma = 1e-6;
 
@@ -76,6 +78,7 @@ NormalEquations::NormalEquations(const Drive& drive)
   for (const Drive::Sighting& sighting : drive.sightings)
     if (sighting.used) addSighting(drive, sighting);
   if (drive.sensor) addSensor(*drive.sensor);
+  for (const Drive::Pair& pair : drive.one) addPairOfOne(drive, pair);
   for (Eigen::Index i = pointAt(0); i < sensorAt(); ++i)
     entries_.emplace_back(i, i, 1.0 / (kLooseSigma_m * kLooseSigma_m));
 }
@@ -114,6 +117,14 @@ void NormalEquations::addMotion(const Drive& drive, std::size_t pose) {
   const Eigen::Matrix3d weight = informationOf(motion);
   cost_ += residual.dot(weight * residual);
   addPair(poseAt(pose - 1), poseAt(pose), -J, J, weight, residual);
+}
+
+void NormalEquations::addPairOfOne(const Drive& drive, const Drive::Pair& pair) {
+  const Eigen::Matrix2d I = Eigen::Matrix2d::Identity();
+  const Eigen::Matrix2d weight = I / (kOneSigma_m * kOneSigma_m);
+  const Eigen::Vector2d residual = drive.points_world[pair.a] - drive.points_world[pair.b];
+  cost_ += residual.dot(weight * residual);
+  addPair(pointAt(pair.a), pointAt(pair.b), I, -I, weight, residual);
 }
 
 void NormalEquations::addSensor(const Drive::Sensor& sensor) {

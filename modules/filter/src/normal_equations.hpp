@@ -36,6 +36,7 @@ class NormalEquations {
  private:
   void addPrior(const Drive& drive, const Drive::Prior& prior);
   void addMotion(const Drive& drive, std::size_t pose);
+  void addPairOfOne(const Drive& drive, const Drive::Pair& pair);
   void addSensor(const Drive::Sensor& sensor);
   void addSighting(const Drive& drive, const Drive::Sighting& sighting);
   void addBlock(Eigen::Index row, Eigen::Index column, const Eigen::MatrixXd& block);

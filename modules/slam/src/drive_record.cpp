@@ -156,7 +156,8 @@ std::optional<DriveRecord::Smoothed> DriveRecord::smoothed(
     places = known->kept();
     keepPoints(drive, places);
     drive.prior = known->prior(motions_.front());
-    std::fill_n(drive.nameless.begin(), drive.prior->points_world.size(), false);
+    if (from->localize)
+      std::fill_n(drive.nameless.begin(), drive.prior->points_world.size(), false);
   }
   if (options.estimate_sensor) drive.sensor = {{}, options.sensor_sigmas};
   const auto before = drive.points_world;

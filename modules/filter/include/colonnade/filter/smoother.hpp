@@ -48,6 +48,10 @@ struct Drive {
   std::optional<Prior> prior = {};    ///< none: the first pose is given, the points are anywhere
   /// For each point, or empty: whether it may turn out to be one of the others.
   std::vector<bool> nameless = {};
+  struct Pair {
+    std::size_t a = 0, b = 0;
+  };
+  std::vector<Pair> one = {};  ///< points of the prior that are one thing
 };
 
 struct Smoothing {
@@ -59,7 +63,8 @@ struct Smoothing {
   double cost = 0.0;
   struct Merger {
     std::size_t point = 0;  ///< has no sightings any more
-    std::size_t into = 0;   ///< where it was; that one may have been merged later
+    /// Where it was; that one may have been merged later. Both points of the prior: Drive::one.
+    std::size_t into = 0;
   };
   std::vector<Merger> merged;
   /// Of all points together, two rows for each, square metres, given the first pose or the prior;
