@@ -49,26 +49,33 @@ def share_right(readings, landmarks, gain, turn, range_sigma, bearing_sigma):
     return 100.0 * right / len(readings)
 
 
-def main():
-    if len(sys.argv) != 2:
-        sys.exit(__doc__)
-    folder = pathlib.Path(sys.argv[1])
+def readings_of(folder):
+    """The surveyed landmarks, and of each robot (true pose, name, distance, bearing) as read."""
     subject_of = {int(r[1]): int(r[0]) for r in rows(folder / "Barcodes.dat")}
     landmarks = {int(r[0]): (float(r[1]), float(r[2]))
                  for r in rows(folder / "Landmark_Groundtruth.dat")}
-    print("| robot | readings | nearest by the sigmas stated | debiased, by the sigmas shown |")
-    print("|---|---|---|---|")
+    robots = {}
     for file in sorted(folder.glob("Robot*_Measurement.dat")):
         robot = file.name.split("_")[0]
         truth = [tuple(map(float, r[:4])) for r in rows(folder / f"{robot}_Groundtruth.dat")]
         stamps = [r[0] for r in truth]
-        readings = []
+        readings = robots[robot] = []
         for r in rows(file):
             name, pose = subject_of.get(int(r[1])), pose_at(truth, stamps, float(r[0]) - DELAY_S)
             if name in landmarks and pose:
                 bearing = float(r[3])
                 depth = (float(r[2]) - DEPTH_OFFSET_M) / DEPTH_GAIN
                 readings.append((pose, name, depth / math.cos(bearing), bearing))
+    return landmarks, robots
+
+
+def main():
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    landmarks, robots = readings_of(pathlib.Path(sys.argv[1]))
+    print("| robot | readings | nearest by the sigmas stated | debiased, by the sigmas shown |")
+    print("|---|---|---|---|")
+    for robot, readings in robots.items():
         expected = [polar(pose, landmarks[name]) for pose, name, _, _ in readings]
         gains = sorted(r[2] / e[0] for r, e in zip(readings, expected))
         turns = sorted(wrap(r[3] - e[1]) for r, e in zip(readings, expected))

@@ -9,7 +9,7 @@ import pathlib
 import sys
 
 sys.dont_write_bytecode = True
-from association_bound import DELAY_S, DEPTH_GAIN, DEPTH_OFFSET_M, polar, pose_at, rows, wrap
+from association_bound import polar, readings_of, wrap
 
 RANGE_SCATTER_M, BEARING_SCATTER = 0.02, math.radians(0.4)
 ROUNDS = 20
@@ -45,30 +45,19 @@ def robust_fit(regressors, values, scatter):
 def main():
     if len(sys.argv) != 2:
         sys.exit(__doc__)
-    folder = pathlib.Path(sys.argv[1])
-    subject_of = {int(r[1]): int(r[0]) for r in rows(folder / "Barcodes.dat")}
-    landmarks = {int(r[0]): (float(r[1]), float(r[2]))
-                 for r in rows(folder / "Landmark_Groundtruth.dat")}
-    print("| robot | range offset [m] | range scale | range skew [1/rad] | bearing scale | bearing offset [deg] |")
+    landmarks, robots = readings_of(pathlib.Path(sys.argv[1]))
+    print("| robot | range offset [m] | range scale | range skew [1/rad] | bearing scale "
+          "| bearing offset [deg] |")
     print("|---|---|---|---|---|---|")
-    for file in sorted(folder.glob("Robot*_Measurement.dat")):
-        robot = file.name.split("_")[0]
-        truth = [tuple(map(float, r[:4])) for r in rows(folder / f"{robot}_Groundtruth.dat")]
-        stamps = [r[0] for r in truth]
-        of_range, longer, of_bearing, wider = [], [], [], []
-        for r in rows(file):
-            name, pose = subject_of.get(int(r[1])), pose_at(truth, stamps, float(r[0]) - DELAY_S)
-            if name not in landmarks or not pose:
-                continue
-            read = float(r[3])
-            distance, bearing = polar(pose, landmarks[name])
-            range_m = (float(r[2]) - DEPTH_OFFSET_M) / DEPTH_GAIN / math.cos(read)
-            of_range.append((1.0, distance, distance * bearing))
-            longer.append(range_m - distance)
-            of_bearing.append((1.0, bearing))
-            wider.append(wrap(read - bearing))
-        offset, scale, skew = robust_fit(of_range, longer, RANGE_SCATTER_M)
-        turned, wide = robust_fit(of_bearing, wider, BEARING_SCATTER)
+    for robot, readings in robots.items():
+        ideal = [polar(pose, landmarks[name]) for pose, name, _, _ in readings]
+        offset, scale, skew = robust_fit(
+            [(1.0, distance, distance * bearing) for distance, bearing in ideal],
+            [read[2] - distance for read, (distance, _) in zip(readings, ideal)], RANGE_SCATTER_M)
+        turned, wide = robust_fit(
+            [(1.0, bearing) for _, bearing in ideal],
+            [wrap(read[3] - bearing) for read, (_, bearing) in zip(readings, ideal)],
+            BEARING_SCATTER)
         print("| %s | %.3f | %.3f | %.3f | %.3f | %.2f |" % (
             robot, offset, scale, skew, wide, math.degrees(turned)))
 
