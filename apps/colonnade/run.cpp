@@ -117,7 +117,10 @@ void describe(const RangeBearingSession& session, nlohmann::ordered_json& json) 
     json["smoothing"] = {{"converged", smoothed->how.converged},
                          {"steps", smoothed->how.steps},
                          {"readings_left_out", smoothed->how.unused},
-                         {"landmarks_merged", merged}};
+                         {"landmarks_merged", merged},
+                         {"cost", smoothed->how.cost}};
+    if (smoothed->cost_of_identities)
+      json["smoothing"]["cost_of_identities"] = *smoothed->cost_of_identities;
   }
 }
 

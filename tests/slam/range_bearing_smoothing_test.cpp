@@ -82,6 +82,23 @@ TEST(RangeBearingSmoothing, MovesTheMapButNotItsNames) {
   EXPECT_GT(moved, 0.0);
 }
 
+/// Where identities are hidden the drive as they tell it is weighed, too.
+TEST(RangeBearingSmoothing, SaysWhatTheLogsIdentitiesWouldCost) {
+  for (const bool known : {true, false}) {
+    RingOfPosts source(9);
+    RangeBearingOptions options;
+    options.use_ids = known;
+    RangeBearingSession session(options, {}, {});
+    session.run(source, [](const auto&...) { return true; });
+    ASSERT_TRUE(session.smoothed());
+    EXPECT_EQ(session.smoothed()->cost_of_identities.has_value(), !known);
+    if (known) continue;
+    EXPECT_EQ(session.identityScore().rightShare(), 1.0);
+    EXPECT_NEAR(*session.smoothed()->cost_of_identities, session.smoothed()->how.cost,
+                1e-3 * session.smoothed()->how.cost);
+  }
+}
+
 TEST(RangeBearingSmoothing, ALogWithoutReadingsStaysAsItIs) {
   class Nothing : public RingOfPosts {
    public:

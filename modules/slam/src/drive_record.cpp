@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "colonnade/filter/gate.hpp"
+#include "colonnade/slam/identity_score.hpp"
 #include "known_map.hpp"
 #include "range_bearing_world.hpp"
 
@@ -97,6 +98,21 @@ std::optional<SensorEstimate> suspectedErrors(Drive drive, double cost,
   return SensorEstimate{drive.sensor->errors, how.sensor_covariance};
 }
 
+std::optional<double> costOfIdentities(Drive drive, const std::vector<int>& identities,
+                                       double gate_probability) {
+  std::vector<std::pair<int, LandmarkId>> readings;
+  for (std::size_t i = 0; i < identities.size(); ++i)
+    readings.emplace_back(identities[i],
+                          LandmarkId{static_cast<std::int32_t>(drive.sightings[i].point)});
+  const auto bearers = bearersOf(readings);
+  if (bearers.empty()) return std::nullopt;
+  for (std::size_t i = 0; i < identities.size(); ++i)
+    if (const auto bearer = bearers.find(identities[i]); bearer != bearers.end())
+      drive.sightings[i].point = static_cast<std::size_t>(number(bearer->second));
+  drive.nameless.clear();
+  return smooth(drive, gate_probability).cost;
+}
+
 }  // namespace
 
 void DriveRecord::add(double stamp_s, const RangeBearingScan& scan,
@@ -108,9 +124,10 @@ void DriveRecord::add(double stamp_s, const RangeBearingScan& scan,
   motions_.push_back({report.T_previous_robot, report.motion_covariance});
 }
 
-Drive DriveRecord::driveOf(const RangeBearingEstimator& estimator, const LandmarkMap& map,
-                           bool use_ids) const {
-  Drive drive{T_world_robot_, motions_, {}, {}};
+DriveRecord::NamedDrive DriveRecord::driveOf(const RangeBearingEstimator& estimator,
+                                             const LandmarkMap& map, bool use_ids) const {
+  NamedDrive named{{T_world_robot_, motions_, {}, {}}, {}};
+  Drive& drive = named.drive;
   std::map<LandmarkId, std::size_t> point_of_landmark;
   std::map<int, std::size_t> point_of_identity;
   for (const LandmarkRecord& landmark : map) {
@@ -133,9 +150,11 @@ Drive DriveRecord::driveOf(const RangeBearingEstimator& estimator, const Landmar
       const auto landmark = point_of_landmark.find(*decisions[i]);
       if (landmark != point_of_landmark.end()) point = landmark->second;
     }
-    if (point) drive.sightings.push_back({reading.frame, *point, *reading.measurement});
+    if (!point) continue;
+    drive.sightings.push_back({reading.frame, *point, *reading.measurement});
+    named.identities.push_back(reading.identity);
   }
-  return drive;
+  return named;
 }
 
 std::optional<DriveRecord::Smoothed> DriveRecord::smoothed(
@@ -144,7 +163,7 @@ std::optional<DriveRecord::Smoothed> DriveRecord::smoothed(
   if (T_world_robot_.empty()) return std::nullopt;
   Smoothed result;
   result.map = estimator.map();
-  Drive drive = driveOf(estimator, result.map, options.use_ids);
+  auto [drive, identities] = driveOf(estimator, result.map, options.use_ids);
   std::vector<std::size_t> places(drive.points_world.size());  // of points in the map
   std::iota(places.begin(), places.end(), std::size_t{0});
   std::optional<KnownMap> known;
@@ -169,6 +188,8 @@ std::optional<DriveRecord::Smoothed> DriveRecord::smoothed(
     result.sensor = {drive.sensor->errors, result.how.sensor_covariance};
   else
     result.suspected = suspectedErrors(drive, result.how.cost, options);
+  if (!options.use_ids)
+    result.cost_of_identities = costOfIdentities(drive, identities, options.known_gate_probability);
   std::vector<double> used(drive.points_world.size(), 0.0);
   for (const Drive::Sighting& sighting : drive.sightings)
     if (sighting.used) used[sighting.point] += 1.0;

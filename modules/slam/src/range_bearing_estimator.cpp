@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 
 #include "colonnade/base/error.hpp"
 #include "range_bearing_alike.hpp"
@@ -227,33 +226,5 @@ std::vector<std::optional<LandmarkId>> RangeBearingEstimator::decisions() const 
   return impl_->histories.path(impl_->hypotheses.front().leaf);
 }
 std::size_t RangeBearingEstimator::histories() const { return impl_->hypotheses.size(); }
-
-IdentityScore scoreIdentities(const std::vector<std::optional<LandmarkId>>& decisions,
-                              const std::vector<int>& identities) {
-  IdentityScore score;
-  std::map<std::pair<int, LandmarkId>, std::size_t> counts;
-  std::map<int, std::size_t> readings;
-  for (std::size_t i = 0; i < std::min(decisions.size(), identities.size()); ++i) {
-    if (identities[i] < 0) continue;
-    ++score.readings;
-    ++readings[identities[i]];
-    if (!decisions[i]) continue;
-    ++score.associated;
-    ++counts[{identities[i], *decisions[i]}];
-  }
-  score.identities = readings.size();
-  std::vector<std::pair<std::size_t, std::pair<int, LandmarkId>>> order;
-  for (const auto& [pair, count] : counts) order.push_back({count, pair});
-  std::stable_sort(order.begin(), order.end(),
-                   [](const auto& a, const auto& b) { return a.first > b.first; });
-  std::map<int, bool> identity_used;
-  std::map<LandmarkId, bool> landmark_used;
-  for (const auto& [count, pair] : order) {
-    if (identity_used[pair.first] || landmark_used[pair.second]) continue;
-    identity_used[pair.first] = landmark_used[pair.second] = true;
-    score.right += count;
-  }
-  return score;
-}
 
 }  // namespace colonnade

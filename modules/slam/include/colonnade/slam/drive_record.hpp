@@ -32,6 +32,9 @@ class DriveRecord {
     /// Where they are not: what would make the readings fit far better.
     std::optional<SensorEstimate> suspected;
     Smoothing how;
+    /// Where identities are hidden but told: how.cost had every reading been taken for the landmark
+    /// its identity is (bearersOf). Larger: what is wrong fits better than what is right.
+    std::optional<double> cost_of_identities;
   };
   /// The drive past the landmarks the estimator knows at the end, with its last word on which
   /// reading is of which; readings whose identity is believed are of its bearer. The map is the
@@ -53,7 +56,12 @@ class DriveRecord {
     int identity = -1;
     std::optional<Measurement> measurement;
   };
-  Drive driveOf(const RangeBearingEstimator& estimator, const LandmarkMap& map, bool use_ids) const;
+  struct NamedDrive {
+    Drive drive;
+    std::vector<int> identities;  ///< of the sightings, as the log tells them
+  };
+  NamedDrive driveOf(const RangeBearingEstimator& estimator, const LandmarkMap& map,
+                     bool use_ids) const;
 
   std::vector<double> stamps_s_;
   std::vector<Pose2> T_world_robot_;

@@ -10,6 +10,7 @@
 #include "colonnade/frames/frame.hpp"
 #include "colonnade/motion/motion.hpp"
 #include "colonnade/slam/event.hpp"
+#include "colonnade/slam/identity_score.hpp"
 #include "colonnade/slam/range_bearing_options.hpp"
 #include "colonnade/slam/resumption.hpp"
 
@@ -81,19 +82,5 @@ class RangeBearingEstimator {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
-
-/// How far decisions agree with the identities a log tells: every identity is given the landmark
-/// most of its readings went to, each landmark to one identity, the pairs with most readings first.
-struct IdentityScore {
-  std::size_t readings = 0;    ///< whose identity the log tells
-  std::size_t associated = 0;  ///< with a landmark
-  std::size_t right = 0;       ///< of those, with the landmark of their identity
-  std::size_t identities = 0;
-  double rightShare() const {
-    return associated == 0 ? 0.0 : static_cast<double>(right) / static_cast<double>(associated);
-  }
-};
-IdentityScore scoreIdentities(const std::vector<std::optional<LandmarkId>>& decisions,
-                              const std::vector<int>& identities);
 
 }  // namespace colonnade
