@@ -73,6 +73,10 @@ Evaluation evaluateAll(EvaluationFiles& files, const Arguments& arguments) {
   if (!files.landmarks.empty()) {
     const auto estimated = readLandmarksCsv(files.landmarks);
     const auto true_ones = readLandmarksCsv(files.truth_landmarks);
+    if (result.trajectory.nees_mean && !result.trajectory.anchor)
+      files.not_scored.push_back(
+          "NEES of landmarks (the world moved along with the map: see origin_x in " +
+          files.covariance.string() + "; RangeBearing.world_with_map=false keeps it)");
     unlessRefused("landmarks", [&] {
       result.landmarks = scoreLandmarks(estimated, true_ones, T_truth_estimate, landmark_options,
                                         result.trajectory.anchor);

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Colonnade authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -102,13 +103,15 @@ void describe(const RangeBearingSession& session, nlohmann::ordered_json& json) 
                          {"right", score.right},
                          {"right_share", score.rightShare()}};
   if (const auto sensor = session.sensor()) {
-    const SensorErrors sigmas = SensorErrors::of(sensor->covariance.diagonal().cwiseSqrt());
-    const SensorErrors& e = sensor->errors;
-    json["sensor"] = {
-        {"range_offset_m", {{"estimate", e.range_offset_m}, {"sigma", sigmas.range_offset_m}}},
-        {"range_scale", {{"estimate", e.range_scale}, {"sigma", sigmas.range_scale}}},
-        {"range_skew", {{"estimate", e.range_skew}, {"sigma", sigmas.range_skew}}},
-        {"bearing_scale", {{"estimate", e.bearing_scale}, {"sigma", sigmas.bearing_scale}}}};
+    const SensorErrors::Vector errors = sensor->errors.vector();
+    const SensorErrors::Vector beforehand = session.options().sensor_sigmas.vector();
+    constexpr std::array kNames = {"range_offset_m", "range_scale", "range_skew", "bearing_offset",
+                                   "bearing_scale"};
+    for (int i = 0; i < SensorErrors::kSize; ++i)
+      json["sensor"][kNames[static_cast<std::size_t>(i)]] = {
+          {"estimate", errors(i)},
+          {"sigma", std::sqrt(sensor->covariance(i, i))},
+          {"sigma_beforehand", beforehand(i)}};
   }
   if (const auto& smoothed = session.smoothed()) {
     auto merged = nlohmann::ordered_json::array();

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "colonnade/base/angle.hpp"
 #include "colonnade/base/text.hpp"
 #include "colonnade/evaluation/consistency.hpp"
 #include "colonnade/evaluation/score_json.hpp"
@@ -19,6 +20,27 @@ Json statistics(const std::vector<StageTimes>& times, Stage stage) {
   std::vector<double> values;
   for (const StageTimes& t : times) values.push_back(stage(t));
   return timingJson(values);
+}
+
+/// A learnt error of the sensor is surer than it was beforehand.
+constexpr double kLearnt = 0.9;
+
+std::string sensorText(const Json& sensor) {
+  std::vector<std::string> learnt;
+  const auto add = [&](const char* key, const char* name, double unit, int digits, const char* of) {
+    const Json& error = sensor[key];
+    const double sigma = error["sigma"];
+    if (sigma < kLearnt * error["sigma_beforehand"].get<double>())
+      learnt.push_back(std::string(name) + " " +
+                       formatFixed(unit * error["estimate"].get<double>(), digits) + " +- " +
+                       formatFixed(unit * sigma, digits) + of);
+  };
+  add("range_offset_m", "range offset", 1.0, 3, " m");
+  add("range_scale", "range scale", 100.0, 1, " %");
+  add("range_skew", "range skew", 100.0, 1, " % a radian");
+  add("bearing_offset", "bearing offset", degrees(1.0), 1, " degrees");
+  add("bearing_scale", "bearing scale", 100.0, 1, " %");
+  return learnt.empty() ? "nothing learnt of its errors" : joined(learnt, ", ");
 }
 
 /// The most frequent source of motion; the counts stand beside it.
@@ -114,17 +136,7 @@ std::string toText(const Json& json) {
   if (const auto pointer = "/smoothing/landmarks_merged"_json_pointer;
       json.contains(pointer) && !json[pointer].empty())
     text += "merged     landmarks founded twice: " + std::to_string(json[pointer].size()) + "\n";
-  if (json.contains("sensor")) {
-    const auto error = [&](const char* key, double unit, int digits) {
-      const Json& e = json["sensor"][key];
-      return formatFixed(unit * e["estimate"].get<double>(), digits) + " +- " +
-             formatFixed(unit * e["sigma"].get<double>(), digits);
-    };
-    text += "sensor     ranges " + error("range_offset_m", 1.0, 3) + " m and " +
-            error("range_scale", 100.0, 1) + " % long (" + error("range_skew", 100.0, 1) +
-            " % for a radian of bearing), bearings " + error("bearing_scale", 100.0, 1) +
-            " % wide\n";
-  }
+  if (json.contains("sensor")) text += "sensor     " + sensorText(json["sensor"]) + "\n";
   if (const int closings = json["loop_closings"].get<int>(); closings > 0)
     text += "loops      " + std::to_string(closings) + " closed\n";
   text += "time       " + formatFixed(json["timing_ms"]["frame"]["median"], 1) +

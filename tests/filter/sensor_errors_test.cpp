@@ -19,8 +19,8 @@ namespace colonnade {
 namespace {
 
 constexpr double kGate = 0.999999;
-const SensorErrors kSigmas{0.05, 0.02, 0.03, 0.03};
-const SensorErrors kSkewed{0.06, 0.015, -0.05, 0.03};
+const SensorErrors kSigmas{0.05, 0.02, 0.03, 0.02, 0.02};
+const SensorErrors kSkewed{0.06, 0.015, -0.05, 0.02, 0.02};
 
 /// The same drive with another sensor.
 testing::SimulatedDrive readBy(const SensorErrors& e, testing::SimulatedDrive drive) {
@@ -29,7 +29,7 @@ testing::SimulatedDrive readBy(const SensorErrors& e, testing::SimulatedDrive dr
       MeasurementVector& z = sighting.measurement.z;
       if (z.size() == 2)
         z(1) = (1.0 + e.range_scale + e.range_skew * z(0)) * z(1) + e.range_offset_m;
-      z(0) *= 1.0 + e.bearing_scale;
+      z(0) += e.bearing_offset + e.bearing_scale * z(0);
     }
   return drive;
 }
@@ -70,16 +70,17 @@ TEST(SensorErrors, JacobiansAgreeWithNumericOnes) {
                     : MeasurementVector(MeasurementVector::Constant(1, 0.4));
     like.R = MeasurementCovariance::Identity(like.z.size(), like.z.size()) * 1e-4;
     like.p_robot_camera << 0.2, -0.1;
+    like.camera_direction = 3.0;  // across the cut of angles
     const auto read = [&](const Eigen::VectorXd& pose, const Eigen::VectorXd& point,
                           const Eigen::VectorXd& errors) {
       auto predicted =
           predictMeasurement({pose(0), pose(1), pose(2)}, BlockKind::kPoint, point, like);
-      const SensorJacobian J = readWith(SensorErrors::of(errors), predicted);
+      const SensorJacobian J = readWith(SensorErrors::of(errors), like, predicted);
       return std::pair(predicted, J);
     };
     const Eigen::Vector3d pose(0.3, -0.2, 0.5);
     const Eigen::Vector2d point(3.1, 2.4);
-    const Eigen::Vector4d errors = kSkewed.vector();
+    const Eigen::VectorXd errors = kSkewed.vector();
     const auto [predicted, J_errors] = read(pose, point, errors);
     const auto differs = [](const Eigen::MatrixXd& J, const auto& f, const Eigen::VectorXd& x) {
       return (J - testing::numericJacobian(f, x)).cwiseAbs().maxCoeff();
@@ -115,13 +116,117 @@ TEST(SensorErrors, JacobiansAgreeWithNumericOnes) {
                   },
                   errors),
               1e-7);
+    EXPECT_LT((freed.measurement.R - freed.J_z * like.R * freed.J_z.transpose()).norm(), 1e-15);
     // There and back.
     PredictedMeasurement ideal;
     ideal.z = freed.measurement.z;
     ideal.H_robot.setZero(ideal.z.size(), 3);
     ideal.H_block.setZero(ideal.z.size(), 2);
-    readWith(kSkewed, ideal);
+    readWith(kSkewed, like, ideal);
     EXPECT_LT((ideal.z - like.z).norm(), 1e-12);
+  }
+}
+
+/// Landmarks hang together with the sensor that founded them as the place they are given depends on
+/// its errors: by a range, by two bearings, by a bearing and a guess.
+TEST(SensorErrors, FoundedLandmarksKnowThem) {
+  Measurement reading, bearing;
+  reading.z = Eigen::Vector2d(0.3, 2.5);
+  reading.R = Eigen::Vector2d(1e-4, 1e-3).asDiagonal();
+  bearing.z = MeasurementVector::Constant(1, 0.3);
+  bearing.R = MeasurementCovariance::Constant(1, 1, 1e-4);
+  Measurement later = bearing;
+  later.z(0) = 0.55;
+  const auto found = [&](int how, const SensorErrors::Vector& errors) {
+    EkfSlam filter({});
+    filter.addSensor(kSigmas);
+    State state = filter.state();
+    state.x.tail<5>() = errors;
+    state.sensor = filter.state().sensor;
+    EkfSlam with({}, state);
+    const LandmarkId clone = with.addPoseClone();
+    const bool moves = with.predict({0.6, -0.4, 0.1}, Eigen::Matrix3d::Zero());
+    EXPECT_TRUE(moves);
+    const auto id = how == 0   ? with.addLandmark(reading)
+                    : how == 1 ? with.addLandmark(clone, bearing, later)
+                               : with.addLandmarkOnRay(clone, bearing, 0.4, 0.1);
+    return std::pair(with, *id);
+  };
+  for (const int how : {0, 1, 2}) {
+    const auto valuesAt = [&](const Eigen::VectorXd& errors) -> Eigen::VectorXd {
+      const auto [filter, id] = found(how, errors);
+      return filter.state().values(*filter.state().find(id));
+    };
+    const auto [filter, id] = found(how, kSkewed.vector());
+    const State& state = filter.state();
+    const Block &landmark = *state.find(id), &sensor = *state.find(*state.sensor);
+    // P_landmark,sensor = J P_sensor, for nothing else is unsure.
+    const Eigen::MatrixXd J = state.P.block(landmark.offset, sensor.offset, landmark.size(), 5) *
+                              kSigmas.vector().cwiseAbs2().cwiseInverse().asDiagonal();
+    const Eigen::MatrixXd numeric = testing::numericJacobian(valuesAt, kSkewed.vector());
+    EXPECT_LT((J - numeric).cwiseAbs().maxCoeff(), 1e-6) << how;
+    EXPECT_GT(numeric.cwiseAbs().maxCoeff(), 0.3) << how;
+  }
+}
+
+/// A landmark that a reading may be of, as unsure as the sensor is, is neither ruled out by a look
+/// at its place nor left to rest.
+TEST(SensorErrors, MayBeWhyAReadingIsFarOff) {
+  FilterOptions options;
+  options.active_landmarks = 4;
+  EkfSlam filter(options);
+  filter.addSensor({0.5, 0.0, 0.0, 0.0, 0.0});
+  Measurement m;
+  m.R = Eigen::Vector2d(1e-6, 1e-6).asDiagonal();
+  std::vector<LandmarkId> posts;
+  for (int i = 0; i < 20; ++i) {  // read off by what the offset may be, here and from elsewhere
+    m.z = Eigen::Vector2d(-1.0 + 0.1 * i, 3.0 + 2.0 * i);
+    posts.push_back(*filter.addLandmark(m));
+  }
+  filter.predict({-2.0, 0.0, kPi / 2.0}, Eigen::Vector3d(1e-8, 1e-8, 1e-8).asDiagonal());
+  const Pose2 T_robot_world = filter.pose().inverse();
+  const auto readingOf = [&](LandmarkId id) {
+    const State all = filter.fullState();
+    // Were ranges 0.5 m long, the post would be that much nearer to where it was founded from.
+    const Eigen::Vector2d p_founded = all.values(*all.find(id));
+    const Eigen::Vector2d p = transform(T_robot_world, p_founded - 0.5 * p_founded.normalized());
+    Measurement reading = m;
+    reading.z << std::atan2(p.y(), p.x()), p.norm() + 0.5;
+    return reading;
+  };
+  filter.focus({});
+  std::size_t resting = 0;
+  for (const LandmarkId id : posts) {
+    if (!filter.isResting(id)) continue;
+    ++resting;
+    const Measurement reading = readingOf(id);
+    const auto near = filter.restingNear({&reading, 1});
+    EXPECT_NE(std::find(near.begin(), near.end(), id), near.end()) << number(id);
+  }
+  EXPECT_GT(resting, 10u);
+}
+
+/// Nor where all but the sensor is known.
+TEST(SensorErrors, MayBeWhyAReadingOfAKnownLandmarkIsFarOff) {
+  State known;
+  known.blocks.push_back({LandmarkId{0}, BlockKind::kPoint, LandmarkKind::kPillarEdge, 3, {}});
+  known.x.resize(5);
+  known.x << 0.0, 0.0, 0.0, 3.0, 0.0;
+  known.P = 1e-6 * Eigen::MatrixXd::Identity(5, 5);
+  Measurement m;
+  m.z = Eigen::Vector2d(0.0, 3.6);
+  m.R = Eigen::Vector2d(1e-6, 1e-6).asDiagonal();
+  for (const bool is_estimated : {true, false}) {
+    EkfSlam filter({}, known);
+    filter.fixMap();
+    if (is_estimated) filter.addSensor({0.5, 0.0, 0.0, 0.0, 0.0});
+    EXPECT_EQ(filter.mayBeWithin(LandmarkId{0}, m, 10.0), is_estimated);
+    EXPECT_EQ(filter.innovation(LandmarkId{0}, m)->within_gate, is_estimated);
+    const Match match{LandmarkId{0}, m};
+    EXPECT_EQ(filter.update({&match, 1}).front(), is_estimated);
+    EXPECT_EQ(filter.state().x(3), 3.0);
+    if (!is_estimated) continue;
+    EXPECT_NEAR(filter.sensor()->errors.range_offset_m, 0.6, 0.01);
   }
 }
 
@@ -143,14 +248,14 @@ TEST(SensorErrors, AreFoundByTheFilter) {
   double sensor_nees = 0.0, pose_nees = 0.0, off_m = 0.0, off_without_m = 0.0;
   constexpr int kRuns = 60;
   for (unsigned seed = 1; seed <= kRuns; ++seed) {
-    Eigen::Vector4d errors = kSigmas.vector();
+    SensorErrors::Vector errors = kSigmas.vector();
     for (double& e : errors) e *= gauss(random);
     const auto drive = readBy(SensorErrors::of(errors), testing::simulatedDrive(seed));
     const EkfSlam filter = filtered(drive.truth, {}, kSigmas);
     const Pose2& truth = drive.truth.T_world_robot.back();
     const auto sensor = *filter.sensor();
-    const Eigen::Vector4d wrong = sensor.errors.vector() - errors;
-    sensor_nees += wrong.dot(sensor.covariance.ldlt().solve(wrong)) / 4.0 / kRuns;
+    const SensorErrors::Vector wrong = sensor.errors.vector() - errors;
+    sensor_nees += wrong.dot(sensor.covariance.ldlt().solve(wrong)) / 5.0 / kRuns;
     Eigen::Vector3d pose = filter.pose().vector() - truth.vector();
     pose(2) = wrapAngle(pose(2));
     pose_nees += pose.dot(filter.poseCovariance().ldlt().solve(pose)) / 3.0 / kRuns;
@@ -192,7 +297,7 @@ TEST(SensorErrors, AreTheSameWhereLandmarksRest) {
 }
 
 TEST(SensorErrors, ARangeShorterThanWhatTheSensorAddsFoundsNothing) {
-  const SensorErrors far{0.4, 0.0, 0.0, 0.0};
+  const SensorErrors far{0.4, 0.0, 0.0, 0.0, 0.0};
   EkfSlam filter = filtered(readBy(far, testing::simulatedDrive(3)).truth, {}, far);
   EXPECT_GT(filter.sensor()->errors.range_offset_m, 0.3);
   Measurement m;
@@ -212,10 +317,15 @@ TEST(Smoother, FindsWhatTheSensorIsOffByAndHonestly) {
     with.sensor = {{}, kSigmas};
     const Smoothing how = smooth(with, kGate);
     ASSERT_TRUE(how.converged);
-    smooth(without, kGate);
-    const Eigen::Vector4d wrong = with.sensor->errors.vector() - kSkewed.vector();
-    nees += wrong.dot(how.sensor_covariance.ldlt().solve(wrong)) / 4.0 / kRuns;
-    EXPECT_LT(std::sqrt(how.sensor_covariance(2, 2)), 0.01);
+    const Smoothing without_how = smooth(without, kGate);
+    const SensorErrors::Vector wrong = with.sensor->errors.vector() - kSkewed.vector();
+    const auto covariance = sensorFit(with, kSigmas)->estimate.covariance;
+    nees += wrong.dot(covariance.ldlt().solve(wrong)) / 5.0 / kRuns;
+    EXPECT_LT(std::sqrt(covariance(2, 2)), 0.01);
+    // Near enough from where they were taken to be none.
+    const SensorFit seen = *sensorFit(without, kSigmas);
+    EXPECT_NEAR(seen.estimate.errors.range_skew, with.sensor->errors.range_skew, 0.01);
+    EXPECT_NEAR(seen.gain / (without_how.cost - how.cost), 1.0, 0.2);
     off_m += testing::poseError(with, drive.truth);
     off_without_m += testing::poseError(without, drive.truth);
   }
@@ -226,18 +336,18 @@ TEST(Smoother, FindsWhatTheSensorIsOffByAndHonestly) {
 
 TEST(NormalEquations, GradientInTheSensorIsHalfTheNumericOneOfTheCost) {
   Drive drive = readBy(kSkewed, testing::simulatedDrive(5)).start;
-  drive.sensor = {{0.01, 0.005, -0.02, 0.01}, kSigmas};
+  drive.sensor = {{0.01, 0.005, -0.02, 0.01, 0.01}, kSigmas};
   const NormalEquations at(drive);
   const auto costAt = [&](const Eigen::VectorXd& dx) -> Eigen::VectorXd {
     Drive moved = drive;
     Eigen::VectorXd all = Eigen::VectorXd::Zero(at.g().size());
-    all.tail<4>() = dx;
+    all.tail<5>() = dx;
     move(moved, at, all);
     return Eigen::VectorXd::Constant(1, NormalEquations(moved).cost());
   };
   const Eigen::VectorXd numeric =
-      testing::numericJacobian(costAt, Eigen::Vector4d::Zero()).transpose();
-  EXPECT_LT((2.0 * at.g().tail<4>() - numeric).norm(), 1e-4 * numeric.norm());
+      testing::numericJacobian(costAt, SensorErrors::Vector::Zero()).transpose();
+  EXPECT_LT((2.0 * at.g().tail<5>() - numeric).norm(), 1e-4 * numeric.norm());
 }
 
 }  // namespace

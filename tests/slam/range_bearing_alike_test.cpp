@@ -33,8 +33,9 @@ Resumption mapOf(const Posts& posts, double sigma_m, const Pose2& T_world = {}) 
   return from;
 }
 
-RangeBearingHypothesis historyOf(const Resumption& from, const FilterOptions& filter = {}) {
-  return {kOptions, filter, from};
+RangeBearingHypothesis historyOf(const Resumption& from, const FilterOptions& filter = {},
+                                 const RangeBearingOptions& options = kOptions) {
+  return {options, filter, from};
 }
 
 /// How many remain, the likelier first.
@@ -77,6 +78,19 @@ TEST(AlikeHistories, WhereTheWorldIsDoesNotMatter) {
   const auto here = historyOf(mapOf(posts(5), 0.03));
   const auto there = historyOf(mapOf(posts(5), 0.03, {4.0, -7.0, 2.0}));
   EXPECT_EQ(remaining(here, there), 1u);
+}
+
+TEST(AlikeHistories, ASensorBesideTheMapHidesNothing) {
+  static const RangeBearingOptions kEstimating = [] {
+    RangeBearingOptions options;
+    options.estimate_sensor = true;
+    return options;
+  }();
+  const auto here = historyOf(mapOf(posts(5), 0.03), {}, kEstimating);
+  ASSERT_TRUE(here.filter.sensor());
+  EXPECT_EQ(remaining(here, historyOf(mapOf(posts(5), 0.03, {1.0, 2.0, 0.5}), {}, kEstimating)),
+            1u);
+  EXPECT_EQ(remaining(here, historyOf(mapOf(posts(4), 0.03), {}, kEstimating)), 2u);
 }
 
 TEST(AlikeHistories, WhatLandmarksAreCalledDoesNotMatter) {

@@ -213,6 +213,32 @@ TEST_F(ReadingMaps, AreRidOfWhatTheyHoldTwice) {
   }
 }
 
+/// A sensor that is off finds its way in the map of another one and makes it no worse, as long as
+/// its errors are estimated. The map knows nothing of the sensor.
+TEST_F(ReadingMaps, ServeOtherSensors) {
+  for (const bool use_ids : {true, false}) {
+    for (const bool localize : {true, false}) {
+      RangeBearingOptions options;
+      options.use_ids = use_ids;
+      double off_m[2] = {0.0, 0.0};
+      for (const bool estimate : {false, true}) {
+        options.estimate_sensor = estimate;
+        for (unsigned seed = 21; seed < 24; ++seed) {
+          RingOfPosts source = ring(seed);
+          source.sensor = {0.08, 0.03, -0.06, 0.02, 0.01};
+          const Day day = drive(source, options, resumption(localize));
+          off_m[estimate] += rms(day.final, source.truth, world());
+          const std::size_t doubles = day.map.size() - firstDay().map.size();
+          EXPECT_LE(doubles, use_ids || localize ? 0u : (estimate ? 2u : 30u));
+          for (const Block& block : day.saved.state.blocks)
+            EXPECT_EQ(block.block_kind, BlockKind::kPoint);
+        }
+      }
+      EXPECT_LT(off_m[true], 0.7 * off_m[false]) << use_ids << localize;
+    }
+  }
+}
+
 TEST_F(ReadingMaps, TakeInWhatWasNotInThem) {
   RingOfPosts half = ring(4, 0, RingOfPosts::kSteps / 2);
   const Day first = drive(half, {});

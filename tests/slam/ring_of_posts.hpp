@@ -25,23 +25,26 @@ class RingOfPosts : public FrameSource {
   std::optional<Frame> next() override {
     if (truth.size() == steps_) return std::nullopt;
     T_world_robot_ = T_world_robot_ * kWay;
-    T_world_odometry_ = T_world_odometry_ *
-                        Pose2{kWay.x * (1.0 + gauss(0.1)), gauss(0.004), kWay.phi + gauss(0.01)};
+    T_world_odometry_ = T_world_odometry_ * Pose2{kWay.x * (1.0 + gauss(wheel_noise)), gauss(0.004),
+                                                  kWay.phi + gauss(0.01)};
     Frame frame;
     frame.stamp_s = 0.5 * static_cast<double>(truth.size() + 1);
     frame.odometry = OdometryReading{T_world_odometry_, {}};
     frame.range_bearing.emplace();
     frame.range_bearing->range_sigma_m = 0.05;
     frame.range_bearing->yaw_sigma = radians(1.0);
+    frame.range_bearing->T_robot_sensor =
+        Eigen::AngleAxisd(direction, Eigen::Vector3d::UnitZ()) * Eigen::Isometry3d::Identity();
+    const Pose2 T_world_sensor = T_world_robot_ * Pose2{0.0, 0.0, direction};
     for (int i = 0; i < kPosts; ++i) {
-      const Eigen::Vector2d p = transform(T_world_robot_.inverse(), post(i + 1));
+      const Eigen::Vector2d p = transform(T_world_sensor.inverse(), post(i + 1));
       const double bearing = std::atan2(p.y(), p.x());
       if (truth.size() < blind || p.norm() > reach_m_ || std::abs(bearing) > half_angle_) continue;
       const double gain = 1.0 + sensor.range_scale + sensor.range_skew * bearing;
       frame.range_bearing->readings.push_back(
           {i + 1,
            gain * p.norm() + sensor.range_offset_m + gauss(0.05),
-           (1.0 + sensor.bearing_scale) * bearing + gauss(radians(1.0)),
+           (1.0 + sensor.bearing_scale) * bearing + sensor.bearing_offset + gauss(radians(1.0)),
            0.0,
            {}});
     }
@@ -70,8 +73,10 @@ class RingOfPosts : public FrameSource {
   static constexpr std::size_t kSteps = 120;  ///< of a round
   static constexpr int kPosts = 24;
   Trajectory truth;
-  std::size_t blind = 0;  ///< frames at the start that show nothing
-  SensorErrors sensor;    ///< what the readings are always off by
+  std::size_t blind = 0;     ///< frames at the start that show nothing
+  double wheel_noise = 0.1;  ///< share of the way
+  double direction = 0.0;    ///< of the sensor
+  SensorErrors sensor;       ///< what the readings are always off by
   /// A frame after which a post that is none is seen at two places.
   std::size_t ghost_at = std::numeric_limits<std::size_t>::max() - 1;
 

@@ -49,7 +49,8 @@ Stack stack(const State& state, std::span<const Match> matches) {
                                         state.values(block), match.measurement);
     const Eigen::Index size = predicted.z.size();
     if (const Block* sensor = sensorOf(state, match.measurement))
-      H_sensor.middleRows(row, size) = readWith(errorsOf(state, sensor), predicted);
+      H_sensor.middleRows(row, size) =
+          readWith(errorsOf(state, sensor), match.measurement, predicted);
     s.nu.segment(row, size) = innovationOf(match.measurement, predicted.z);
     s.R.block(row, row, size, size) = noiseOf(match.measurement);
     H_robot.middleRows(row, size) = predicted.H_robot;
@@ -188,7 +189,7 @@ std::optional<LandmarkId> EkfSlam::addLandmark(const Measurement& measurement) {
   }
   const FreedMeasurement freed = freedOf(state_, measurement);
   if (!isUsable(freed.measurement)) {
-    health_.refuse("measurement not finite");
+    health_.refuse("range shorter than what the sensor adds");
     return std::nullopt;
   }
   const InverseMeasurement inverse = is_line ? lineFromFloor(pose(), freed.measurement)
@@ -295,7 +296,8 @@ void EkfSlam::placeRobot(const Pose2& T_world_robot, const Eigen::Matrix3d& cova
 
 void EkfSlam::addSensor(const SensorErrors& sigmas) {
   const LandmarkId id = nextId();
-  augment(state_, {id, BlockKind::kSensor, {}, 0, {}}, Eigen::Vector4d::Zero(), SparseJacobian(4),
+  augment(state_, {id, BlockKind::kSensor, {}, 0, {}}, SensorErrors{}.vector(),
+          SparseJacobian(SensorErrors::kSize),
           sigmas.vector().cwiseAbs2().asDiagonal().toDenseMatrix());
   state_.sensor = id;
 }
@@ -303,7 +305,9 @@ void EkfSlam::addSensor(const SensorErrors& sigmas) {
 std::optional<SensorEstimate> EkfSlam::sensor() const {
   if (!state_.sensor) return std::nullopt;
   const Block& block = *state_.find(*state_.sensor);
-  return SensorEstimate{errorsOf(state_, &block), state_.P.block<4, 4>(block.offset, block.offset)};
+  return SensorEstimate{
+      errorsOf(state_, &block),
+      state_.P.block<SensorErrors::kSize, SensorErrors::kSize>(block.offset, block.offset)};
 }
 
 bool EkfSlam::isFixed(LandmarkId block) const {

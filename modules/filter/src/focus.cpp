@@ -90,7 +90,6 @@ double nearest(std::vector<Place>& places, std::size_t count, const Segment& way
 /// A measurement with range.
 struct Sighting {
   const Measurement* measurement;
-  Measurement seen;  ///< seenWith() the sensor
   FirstLook look;
 };
 
@@ -100,8 +99,7 @@ std::vector<Sighting> sightings(std::span<const Measurement> measurements, const
   for (const Measurement& m : measurements) {
     if (!m.hasRange() || m.kind == LandmarkKind::kFloorEdge) continue;
     if (!m.z.allFinite() || !m.R.allFinite()) continue;
-    const Measurement seen = seenWith(state, m);
-    sightings.push_back({&m, seen, {state.T_world_robot(), P_robot, seen}});
+    sightings.push_back({&m, {state.T_world_robot(), P_robot, seenWith(state, m)}});
   }
   return sightings;
 }
@@ -165,18 +163,24 @@ std::vector<LandmarkId> EkfSlam::activeNear(std::span<const Measurement> measure
 
 std::vector<LandmarkId> EkfSlam::restingNear(std::span<const Measurement> measurements) const {
   std::vector<LandmarkId> near;
-  const Eigen::Matrix3d P_robot = poseCovariance();
   const auto seen = sightings(measurements, state_);
   if (resting_.empty() || seen.empty()) return near;
   const double bound = chiSquareQuantile(kNearProbability, 2);
   const double move = resting_.largestMove(state_);
+  // A reading speaks of the landmark and of these rows of the state: robot and sensor.
+  std::vector<Eigen::Index> own{0, 1, 2};
+  const Block* sensor = state_.sensor ? state_.find(*state_.sensor) : nullptr;
+  if (sensor)
+    for (int i = 0; i < sensor->size(); ++i) own.push_back(sensor->offset + i);
+  const Eigen::MatrixXd P_own = state_.P(own, own);
   const auto mayBe = [&](const Block& block, const Measurement& m) {
-    const RestingMap::Marginal marginal = resting_.marginal(block, state_);
-    const auto predicted = predictMeasurement(pose(), block.block_kind, marginal.y, m);
-    const Eigen::MatrixXd cross =
-        predicted.H_robot * marginal.P_robot * predicted.H_block.transpose();
-    const Eigen::MatrixXd S = predicted.H_robot * P_robot * predicted.H_robot.transpose() + cross +
-                              cross.transpose() +
+    const RestingMap::Marginal marginal = resting_.marginal(block, state_, own);
+    auto predicted = predictMeasurement(pose(), block.block_kind, marginal.y, m);
+    Eigen::MatrixXd H_own = Eigen::MatrixXd::Zero(predicted.z.size(), P_own.cols());
+    if (sensor) H_own.rightCols(sensor->size()) = readWith(errorsOf(state_, sensor), m, predicted);
+    H_own.leftCols<3>() = predicted.H_robot;
+    const Eigen::MatrixXd cross = H_own * marginal.P_state * predicted.H_block.transpose();
+    const Eigen::MatrixXd S = H_own * P_own * H_own.transpose() + cross + cross.transpose() +
                               predicted.H_block * marginal.P * predicted.H_block.transpose() + m.R;
     const Eigen::VectorXd nu = innovationOf(m, predicted.z);
     const Eigen::LLT<Eigen::MatrixXd> llt(S);
@@ -189,7 +193,8 @@ std::vector<LandmarkId> EkfSlam::restingNear(std::span<const Measurement> measur
     const double moved_m = move * std::sqrt(spread2);
     if (std::any_of(seen.begin(), seen.end(), [&](const Sighting& sighting) {
           return sighting.measurement->kind == block.landmark_kind &&
-                 !sighting.look.rulesOut(p, moved_m, spread2, bound) && mayBe(block, sighting.seen);
+                 !sighting.look.rulesOut(p, moved_m, spread2, bound) &&
+                 mayBe(block, *sighting.measurement);
         }))
       near.push_back(block.id);
   }

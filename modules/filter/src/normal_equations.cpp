@@ -16,7 +16,7 @@ namespace {
 constexpr double kHuberProbability = 0.99;
 /// Entries of H from each motion, sighting and point.
 constexpr std::size_t kMotionEntries = 36, kSightingEntries = 25, kPointEntries = 2,
-                      kSensorEntries = 56;
+                      kSensorEntries = 75;
 /// A standing robot states no noise at all; its poses are tied to within this.
 constexpr double kStandingSigma = 1e-5;  ///< m and rad
 /// Keeps a point that was only seen along one ray where it is.
@@ -33,7 +33,7 @@ PredictedMeasurement predicted(const Drive& drive, const Drive::Sighting& sighti
       predictMeasurement(drive.T_world_robot[sighting.pose], BlockKind::kPoint,
                          drive.points_world[sighting.point], sighting.measurement);
   if (!drive.sensor) return expected;
-  const SensorJacobian J = readWith(drive.sensor->errors, expected);
+  const SensorJacobian J = readWith(drive.sensor->errors, sighting.measurement, expected);
   if (J_sensor) *J_sensor = J;
   return expected;
 }
@@ -68,7 +68,7 @@ NormalEquations::NormalEquations(const Drive& drive)
     : held_(drive.prior ? 0 : 1),
       poses_(static_cast<Eigen::Index>(drive.T_world_robot.size())),
       points_(drive.points_world.size()),
-      g_(Eigen::VectorXd::Zero(sensorAt() + (drive.sensor ? 4 : 0))) {
+      g_(Eigen::VectorXd::Zero(sensorAt() + (drive.sensor ? SensorErrors::kSize : 0))) {
   entries_.reserve(kMotionEntries * drive.motions.size() +
                    (kSightingEntries + (drive.sensor ? kSensorEntries : 0)) *
                        drive.sightings.size() +
@@ -128,12 +128,12 @@ void NormalEquations::addPairOfOne(const Drive& drive, const Drive::Pair& pair) 
 }
 
 void NormalEquations::addSensor(const Drive::Sensor& sensor) {
-  const Eigen::Vector4d information =
+  const SensorErrors::Vector information =
       sensor.sigmas.vector().cwiseMax(kKnownSigma).cwiseAbs2().cwiseInverse();
-  const Eigen::Vector4d errors = sensor.errors.vector();
+  const SensorErrors::Vector errors = sensor.errors.vector();
   cost_ += errors.cwiseAbs2().dot(information);
   addBlock(sensorAt(), sensorAt(), information.asDiagonal().toDenseMatrix());
-  g_.segment<4>(sensorAt()) += information.cwiseProduct(errors);
+  g_.segment<SensorErrors::kSize>(sensorAt()) += information.cwiseProduct(errors);
 }
 
 void NormalEquations::addSighting(const Drive& drive, const Drive::Sighting& sighting) {
@@ -154,7 +154,7 @@ void NormalEquations::addSighting(const Drive& drive, const Drive::Sighting& sig
   addBlock(sensorAt(), sensorAt(), J_sensor.transpose() * weighted);
   addMixed(poseAt(sighting.pose), sensorAt(), J_pose.transpose() * weighted);
   addMixed(pointAt(sighting.point), sensorAt(), expected.H_block.transpose() * weighted);
-  g_.segment<4>(sensorAt()) += weighted.transpose() * residual;
+  g_.segment<SensorErrors::kSize>(sensorAt()) += weighted.transpose() * residual;
 }
 
 void NormalEquations::addBlock(Eigen::Index row, Eigen::Index column,
@@ -186,8 +186,8 @@ void move(Drive& drive, const NormalEquations& at, const Eigen::VectorXd& dx) {
   for (std::size_t i = 0; i < drive.points_world.size(); ++i)
     drive.points_world[i] += dx.segment<2>(at.pointAt(i));
   if (drive.sensor)
-    drive.sensor->errors =
-        SensorErrors::of(drive.sensor->errors.vector() + dx.segment<4>(at.sensorAt()));
+    drive.sensor->errors = SensorErrors::of(drive.sensor->errors.vector() +
+                                            dx.segment<SensorErrors::kSize>(at.sensorAt()));
 }
 
 double huberLoss(double distance2, Eigen::Index size) {

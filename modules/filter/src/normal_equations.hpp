@@ -14,7 +14,7 @@ namespace colonnade {
 /// H dx = -g of a drive's least squares about the estimate it holds, and the cost there: the sum of
 /// squared Mahalanobis distances, for sightings in Huber's loss. dx has three entries for each
 /// pose, but for the first without a prior, xi of Exp(xi) T_world_robot, two for each point,
-/// metres added to it, and last four for a sensor's errors. With xi on the world's side a stretch
+/// metres added to it, and last five for a sensor's errors. With xi on the world's side a stretch
 /// of the way turns as a whole without any change to the motions along it, however stiff those are
 /// and however far it turns.
 class NormalEquations {

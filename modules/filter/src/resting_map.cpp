@@ -94,7 +94,8 @@ BlockVector RestingMap::moved(const Block& block,
   return y;
 }
 
-RestingMap::Marginal RestingMap::marginal(const Block& block, const State& state) const {
+RestingMap::Marginal RestingMap::marginal(const Block& block, const State& state,
+                                          const Indices& rows_of_state) const {
   Indices rows;
   for (int i = 0; i < block.size(); ++i) rows.push_back(block.offset + i);
   const Eigen::MatrixXd C = C_.rows(rows);
@@ -103,12 +104,12 @@ RestingMap::Marginal RestingMap::marginal(const Block& block, const State& state
   marginal.P = Eigen::MatrixXd::NullaryExpr(
       block.size(), block.size(),
       [&](Index row, Index column) { return P_(block.offset + row, block.offset + column); });
-  marginal.P_robot = state.transfer->Phi.topRows<3>() * C.transpose();
+  marginal.P_state = state.transfer->Phi(rows_of_state, Eigen::all) * C.transpose();
   if (!invariant_) return marginal;
   const Eigen::VectorXd g = turnOfWay(block, marginal.y);
-  const Eigen::VectorXd w = marginal.P_robot.row(2).transpose() + 0.5 * state.P(2, 2) * g;
+  const Eigen::VectorXd w = C * state.transfer->Phi.row(2).transpose() + 0.5 * state.P(2, 2) * g;
   marginal.P += g * w.transpose() + w * g.transpose();
-  marginal.P_robot += state.P.block<3, 1>(0, 2) * g.transpose();
+  marginal.P_state += state.P(rows_of_state, 2) * g.transpose();
   return marginal;
 }
 

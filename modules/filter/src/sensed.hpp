@@ -28,7 +28,8 @@ inline Measurement seenWith(const State& state, const Measurement& measurement) 
   const Block* sensor = sensorOf(state, measurement);
   if (!sensor) return measurement;
   FreedMeasurement freed = freedOf(errorsOf(state, sensor), measurement);
-  const auto P = state.P.block<4, 4>(sensor->offset, sensor->offset);
+  const auto P =
+      state.P.block<SensorErrors::kSize, SensorErrors::kSize>(sensor->offset, sensor->offset);
   freed.measurement.R += freed.J_errors * P * freed.J_errors.transpose();
   return freed.measurement;
 }

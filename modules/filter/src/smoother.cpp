@@ -61,22 +61,21 @@ void mend(Drive& drive, double probability, Smoothing& result) {
   }
 }
 
-/// Of the points, and of the sensor's errors.
-void addCovariances(const Drive& drive, Smoothing& result) {
+/// Of `size` entries of dx, from `first` on.
+Eigen::MatrixXd covarianceOf(const Eigen::SimplicialLDLT<Sparse>& factor, Eigen::Index first,
+                             Eigen::Index size) {
+  Eigen::MatrixXd covariance(size, size);
+  for (Eigen::Index i = 0; i < size; ++i)
+    covariance.col(i) =
+        factor.solve(Eigen::VectorXd::Unit(factor.rows(), first + i)).segment(first, size);
+  return 0.5 * (covariance + covariance.transpose());
+}
+
+Eigen::MatrixXd pointCovariance(const Drive& drive) {
   const NormalEquations at(drive);
-  const Sparse H = at.H();
-  const Eigen::SimplicialLDLT<Sparse> factor(H);
-  if (factor.info() != Eigen::Success) return;
-  const auto covarianceOf = [&](Eigen::Index first, Eigen::Index size) {
-    Eigen::MatrixXd covariance(size, size);
-    for (Eigen::Index i = 0; i < size; ++i)
-      covariance.col(i) =
-          factor.solve(Eigen::VectorXd::Unit(H.rows(), first + i)).segment(first, size);
-    return Eigen::MatrixXd(0.5 * (covariance + covariance.transpose()));
-  };
-  if (drive.points_world.size() <= kMostCovariances)
-    result.covariance = covarianceOf(at.pointAt(0), at.sensorAt() - at.pointAt(0));
-  if (drive.sensor) result.sensor_covariance = covarianceOf(at.sensorAt(), 4);
+  const Eigen::SimplicialLDLT<Sparse> factor(at.H());
+  if (factor.info() != Eigen::Success) return {};
+  return covarianceOf(factor, at.pointAt(0), at.sensorAt() - at.pointAt(0));
 }
 
 }  // namespace
@@ -89,8 +88,23 @@ Smoothing smooth(Drive& drive, double gate_probability) {
   settle(drive, gate_probability, result);
   mend(drive, gate_probability, result);
   mergeDuplicates(drive, gate_probability, result);
-  if (drive.points_world.size() <= kMostCovariances || drive.sensor) addCovariances(drive, result);
+  if (drive.points_world.size() <= kMostCovariances) result.covariance = pointCovariance(drive);
   return result;
+}
+
+std::optional<SensorFit> sensorFit(const Drive& drive, const SensorErrors& sigmas) {
+  Drive with = drive;
+  if (!with.sensor) with.sensor = {{}, sigmas};
+  const NormalEquations at(with);
+  const Eigen::SimplicialLDLT<Sparse> factor(at.H());
+  if (factor.info() != Eigen::Success) return std::nullopt;
+  const Eigen::VectorXd dx = factor.solve(-at.g());
+  SensorFit fit;
+  fit.estimate.errors = SensorErrors::of(with.sensor->errors.vector() +
+                                         dx.segment<SensorErrors::kSize>(at.sensorAt()));
+  fit.estimate.covariance = covarianceOf(factor, at.sensorAt(), SensorErrors::kSize);
+  fit.gain = -at.g().dot(dx);  // about here the cost is g dx 2 + dx H dx more
+  return fit;
 }
 
 }  // namespace colonnade

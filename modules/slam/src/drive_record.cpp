@@ -85,17 +85,14 @@ void place(const std::vector<Eigen::Vector2d>& points, const std::vector<double>
   }
 }
 
-/// What the sensor seems to be off by, given that it was taken to be right: with errors estimated
-/// the cost falls by more than noise explains, and not by next to nothing.
-std::optional<SensorEstimate> suspectedErrors(Drive drive, double cost,
-                                              const RangeBearingOptions& options) {
-  drive.sensor = {{}, options.sensor_sigmas};
-  drive.nameless.clear();
-  const Smoothing how = smooth(drive, options.known_gate_probability);
-  const double noise = chiSquareQuantile(kSuspect, 4);
-  if (!how.converged || !(cost - how.cost > std::max(noise, kWorthwhile * cost)))
-    return std::nullopt;
-  return SensorEstimate{drive.sensor->errors, how.sensor_covariance};
+/// What the sensor of a drive is off by that was smoothed as if it were right: were that part of
+/// the estimate, the cost would fall by more than noise explains, and not by next to nothing.
+std::optional<SensorEstimate> suspectedErrors(const Drive& drive, double cost,
+                                              const SensorErrors& sigmas) {
+  const auto fit = sensorFit(drive, sigmas);
+  const double noise = chiSquareQuantile(kSuspect, SensorErrors::kSize);
+  if (!fit || !(fit->gain > std::max(noise, kWorthwhile * cost))) return std::nullopt;
+  return fit->estimate;
 }
 
 std::optional<double> costOfIdentities(Drive drive, const std::vector<int>& identities,
@@ -184,10 +181,10 @@ std::optional<DriveRecord::Smoothed> DriveRecord::smoothed(
   if (!std::isfinite(result.how.cost) || 2 * result.how.unused >= drive.sightings.size())
     return std::nullopt;
 
-  if (drive.sensor)
-    result.sensor = {drive.sensor->errors, result.how.sensor_covariance};
-  else
-    result.suspected = suspectedErrors(drive, result.how.cost, options);
+  if (!drive.sensor)
+    result.suspected = suspectedErrors(drive, result.how.cost, options.sensor_sigmas);
+  else if (const auto fit = sensorFit(drive, options.sensor_sigmas))
+    result.sensor = fit->estimate;
   if (!options.use_ids)
     result.cost_of_identities = costOfIdentities(drive, identities, options.known_gate_probability);
   std::vector<double> used(drive.points_world.size(), 0.0);

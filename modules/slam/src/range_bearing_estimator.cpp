@@ -43,6 +43,8 @@ std::optional<Measurement> levelled(const RangeBearing& reading, const RangeBear
   Measurement m;
   m.kind = LandmarkKind::kPillarEdge;
   m.p_robot_camera = scan.T_robot_sensor.translation().head<2>();
+  const Eigen::Vector3d axis = scan.T_robot_sensor.linear().col(0);
+  m.camera_direction = std::atan2(axis.y(), axis.x());
   m.z.resize(size);
   m.R.setZero(size, size);
   m.z(0) = std::atan2(flat.y(), flat.x());

@@ -18,22 +18,26 @@ constexpr double kSure = 3.0;  ///< deviations
 
 /// Those errors of a sensor that are sure, in words.
 std::string described(const SensorEstimate& sensor) {
-  const SensorErrors& e = sensor.errors;
-  const Eigen::Vector4d values = e.vector();
-  std::vector<std::string> parts;
-  const auto add = [&](int i, double shown, int digits, const char* more, const char* less) {
-    if (std::abs(values(i)) > kSure * std::sqrt(sensor.covariance(i, i)))
-      parts.push_back(formatFixed(std::abs(shown), digits) + (values(i) > 0.0 ? more : less));
+  const SensorErrors::Vector e = sensor.errors.vector();
+  const auto isSure = [&](int i) {
+    return std::abs(e(i)) > kSure * std::sqrt(sensor.covariance(i, i));
   };
-  add(0, e.range_offset_m, 3, " m long", " m short");
-  add(1, 100.0 * e.range_scale, 1, " % long", " % short");
-  add(2, 100.0 * e.range_skew, 1, " % longer for each radian to the left",
+  std::vector<std::string> ranges, bearings;
+  const auto add = [&](std::vector<std::string>& to, int i, double unit, int digits,
+                       const char* more, const char* less) {
+    if (isSure(i))
+      to.push_back(formatFixed(std::abs(unit * e(i)), digits) + (e(i) > 0.0 ? more : less));
+  };
+  add(ranges, 0, 1.0, 3, " m long", " m short");
+  add(ranges, 1, 100.0, 1, " % long", " % short");
+  add(ranges, 2, 100.0, 1, " % longer for each radian to the left",
       " % shorter for each radian to the left");
-  const std::string ranges = parts.empty() ? "" : "ranges " + joined(parts, ", ");
-  parts.clear();
-  add(3, 100.0 * e.bearing_scale, 1, " % wide", " % narrow");
-  const std::string bearings = parts.empty() ? "" : "bearings " + parts.front();
-  return ranges + (ranges.empty() || bearings.empty() ? "" : "; ") + bearings;
+  add(bearings, 3, degrees(1.0), 1, " degrees to the left", " degrees to the right");
+  add(bearings, 4, 100.0, 1, " % wide", " % narrow");
+  std::vector<std::string> parts;
+  if (!ranges.empty()) parts.push_back("ranges " + joined(ranges, ", "));
+  if (!bearings.empty()) parts.push_back("bearings " + joined(bearings, ", "));
+  return joined(parts, "; ");
 }
 
 }  // namespace
@@ -86,7 +90,9 @@ void RangeBearingSession::lookForPlace(const Taken& frame, const RangeBearingRep
   if (taken.motion_covariance == Eigen::Matrix3d::Zero()) since_.back().motion = {};
   way_m_ += frame.motion.T_previous_robot.translation().norm();
   const auto& blocks = estimator_.filter().state().blocks;
-  if (!search_->isDue(blocks.size(), way_m_)) return;
+  const auto landmarks = std::count_if(blocks.begin(), blocks.end(),
+                                       [](const Block& block) { return block.isLandmark(); });
+  if (!search_->isDue(static_cast<std::size_t>(landmarks), way_m_)) return;
   const State own = estimator_.filter().fullState();
   const auto here = placeMarks(
       own,

@@ -24,6 +24,7 @@ struct Measurement {
   MeasurementVector z;
   MeasurementCovariance R;  ///< radians squared and metres squared
   Eigen::Vector2d p_robot_camera = Eigen::Vector2d::Zero();
+  double camera_direction = 0.0;  ///< of its axis, like a bearing; where its errors are estimated
 
   bool hasRange() const { return z.size() == 2; }
 };

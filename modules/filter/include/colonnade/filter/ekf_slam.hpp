@@ -61,7 +61,7 @@ class EkfSlam {
   void fixMap() { fixed_ = state_.x.size() - 3; }
   bool isFixed(LandmarkId block) const;
   /// From now on the errors of the sensor that reads point landmarks are estimated with everything
-  /// else, from none with these standard deviations. Once.
+  /// else, from none with these standard deviations. To be called once.
   void addSensor(const SensorErrors& sigmas);
   std::optional<SensorEstimate> sensor() const;
 

@@ -25,8 +25,9 @@ constexpr int sizeOf(BlockKind kind) {
       return 2;
     case BlockKind::kInverseDepth:
     case BlockKind::kFloorLine:
-    case BlockKind::kSensor:
       return 4;
+    case BlockKind::kSensor:
+      return 5;
     case BlockKind::kAxis:
       return 1;
     case BlockKind::kPoseClone:
@@ -56,8 +57,8 @@ constexpr BlockLayout layoutOf(BlockKind kind) {
 
 constexpr BlockLayout kRobotLayout{0, 2};
 
-/// The parameters of one block, at most four, without a heap allocation.
-using BlockVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 4, 1>;
+/// The parameters of one block, at most five, without a heap allocation.
+using BlockVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 5, 1>;
 using RobotJacobian = Eigen::Matrix<double, Eigen::Dynamic, 3, 0, 4, 3>;
 using BlockJacobian = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 4, 4>;
 

@@ -31,13 +31,14 @@ class RestingMap {
   const Block* find(LandmarkId id) const;
 
   /// A resting block as of now: its values, its covariance (as of the last exchange: since then it
-  /// can only have lost) and that of the robot with it (3 x size).
+  /// can only have lost) and that of some rows of the state with it.
   struct Marginal {
     BlockVector y;
     Eigen::MatrixXd P;
-    Eigen::MatrixXd P_robot;
+    Eigen::MatrixXd P_state;
   };
-  Marginal marginal(const Block& block, const State& state) const;
+  Marginal marginal(const Block& block, const State& state,
+                    const std::vector<Eigen::Index>& rows_of_state) const;
   /// The values of a resting block as of the last exchange.
   BlockVector valueThen(const Block& block) const { return x_.segment(block.offset, block.size()); }
   /// No resting point has moved farther since the last exchange than so many of its deviations:

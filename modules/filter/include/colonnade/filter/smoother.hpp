@@ -70,7 +70,6 @@ struct Smoothing {
   /// Of all points together, two rows for each, square metres, given the first pose or the prior;
   /// empty for more than 500 points.
   Eigen::MatrixXd covariance;
-  Eigen::Matrix4d sensor_covariance = Eigen::Matrix4d::Zero();  ///< of Drive::sensor
 };
 
 /// The likeliest poses and points of a drive given all of its motions and sightings, found from
@@ -84,5 +83,14 @@ struct Smoothing {
 /// first. Points founded twice become one where Drive::nameless allows it. Throws nothing; a drive
 /// without a sighting is left as it is.
 Smoothing smooth(Drive& drive, double gate_probability);
+
+/// What the sensor of a smoothed drive is off by, and how sure that is given everything: as found
+/// where the drive has one, otherwise as it would be found with these standard deviations
+/// beforehand, to first order. Nothing where the equations are singular.
+struct SensorFit {
+  SensorEstimate estimate;
+  double gain = 0.0;  ///< how much less the drive would cost
+};
+std::optional<SensorFit> sensorFit(const Drive& drive, const SensorErrors& sigmas);
 
 }  // namespace colonnade

@@ -29,7 +29,7 @@ class DriveRecord {
     /// Landmarks founded twice that are no more in the map, and those of the map they are.
     std::map<LandmarkId, LandmarkId> merged;
     std::optional<SensorEstimate> sensor;  ///< where its errors are estimated
-    /// Where they are not: what would make the readings fit far better.
+    /// Where they are not: what would make the readings fit far better, to first order.
     std::optional<SensorEstimate> suspected;
     Smoothing how;
     /// Where identities are hidden but told: how.cost had every reading been taken for the landmark

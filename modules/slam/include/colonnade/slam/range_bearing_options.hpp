@@ -24,8 +24,11 @@ struct RangeBearingOptions {
   double known_gate_probability = 0.999999;
   double error_correlation_s = 0.0;
   bool estimate_sensor = false;
-  SensorErrors sensor_sigmas = {
-      .range_offset_m = 0.05, .range_scale = 0.02, .range_skew = 0.03, .bearing_scale = 0.03};
+  SensorErrors sensor_sigmas = {.range_offset_m = 0.05,
+                                .range_scale = 0.02,
+                                .range_skew = 0.03,
+                                .bearing_offset = radians(1.0),
+                                .bearing_scale = 0.01};
   bool wait_for_landmark = false;
   bool world_with_map = true;
   bool smooth = true;
@@ -63,13 +66,15 @@ struct RangeBearingOptions {
              "Filter.error_correlation_s");
     v.flag("estimate_sensor", estimate_sensor,
            "estimate what the sensor is always off by; how large that may be, one sigma each:");
-    v.number("range_offset_sigma_m", sensor_sigmas.range_offset_m, {0, 10},
+    v.number("range_offset_sigma_m", sensor_sigmas.range_offset_m, {0, 0.5},
              "metres more in every range (estimate_sensor)");
-    v.number("range_scale_sigma", sensor_sigmas.range_scale, {0, 1},
+    v.number("range_scale_sigma", sensor_sigmas.range_scale, {0, 0.1},
              "share by which ranges are too long (estimate_sensor)");
-    v.number("range_skew_sigma", sensor_sigmas.range_skew, {0, 1},
+    v.number("range_skew_sigma", sensor_sigmas.range_skew, {0, 0.1},
              "the same for each radian of bearing (estimate_sensor)");
-    v.number("bearing_scale_sigma", sensor_sigmas.bearing_scale, {0, 1},
+    v.angle("bearing_offset_sigma_deg", sensor_sigmas.bearing_offset, {0, 10},
+            "by which bearings are too far to the left (estimate_sensor)");
+    v.number("bearing_scale_sigma", sensor_sigmas.bearing_scale, {0, 0.1},
              "share by which bearings are too wide (estimate_sensor)");
     v.flag("wait_for_landmark", wait_for_landmark,
            "stand still until there is a landmark, as MRPT's kf-slam does");

@@ -28,6 +28,7 @@ class RangeBearingSession {
   using Observer = std::function<bool(const Frame&, const StepReport&, const RangeBearingSession&)>;
   void run(FrameSource& source, const Observer& observer);
 
+  const RangeBearingOptions& options() const { return options_; }
   const EkfSlam& filter() const { return estimator_.filter(); }
   const RangeBearingEstimator& estimator() const { return estimator_; }
   /// What the whole log says, once run() has come to its end; nothing with RangeBearing.smooth off
