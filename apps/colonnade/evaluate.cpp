@@ -54,11 +54,10 @@ Evaluation evaluateAll(EvaluationFiles& files, const Arguments& arguments) {
 
   Evaluation result;
   result.trajectory = evaluateTrajectory(estimate, truth, options, covariances);
-  if (!files.final_trajectory.empty()) {
-    const auto final_trajectory = readTum(files.final_trajectory);
-    if (!same(estimate, final_trajectory))
-      result.final_trajectory = evaluateTrajectory(final_trajectory, truth, options);
-  }
+  const auto final =
+      files.final_trajectory.empty() ? Trajectory{} : readTum(files.final_trajectory);
+  if (!final.empty() && !same(estimate, final))
+    result.final_trajectory = evaluateTrajectory(final, truth, options);
   // The map goes with the trajectory after the last correction.
   const Pose2 T_truth_estimate =
       planarPart(result.final_trajectory.value_or(result.trajectory).T_truth_estimate);
@@ -73,13 +72,9 @@ Evaluation evaluateAll(EvaluationFiles& files, const Arguments& arguments) {
   if (!files.landmarks.empty()) {
     const auto estimated = readLandmarksCsv(files.landmarks);
     const auto true_ones = readLandmarksCsv(files.truth_landmarks);
-    if (result.trajectory.nees_mean && !result.trajectory.anchor)
-      files.not_scored.push_back(
-          "NEES of landmarks (the world moved along with the map: see origin_x in " +
-          files.covariance.string() + "; RangeBearing.world_with_map=false keeps it)");
     unlessRefused("landmarks", [&] {
       result.landmarks = scoreLandmarks(estimated, true_ones, T_truth_estimate, landmark_options,
-                                        result.trajectory.anchor);
+                                        anchorOfMap(result.trajectory, final, covariances));
     });
   }
   if (!files.floor.empty()) {

@@ -48,6 +48,7 @@ std::optional<Anchor> anchorOf(const std::optional<JudgedPose>& first, Alignment
   if (alignment == Alignment::kNone) return anchor;
   if (!first) return std::nullopt;
   const auto& [pair, covariance] = *first;
+  anchor.stamp_s = pair.stamp_s;
   anchor.T_estimate_body = planarPart(pair.T_estimate_body);
   anchor.T_truth_estimate = planarPart(pair.T_truth_body * pair.T_estimate_body.inverse());
   anchor.covariance = covariance;
@@ -127,11 +128,25 @@ void scoreConsistency(const std::vector<PosePair>& pairs,
   const auto count = static_cast<double>(score.nees_poses);
   score.nees_mean = sum / count / 3.0;
   score.nees_share_within_95 = within / count;
-  // A map lies in the world as it is at the end.
-  const auto moved = [](const StampedCovariance& row) {
-    return !row.T_world_origin.vector().isZero(0.0);
-  };
-  if (std::any_of(covariances.begin(), covariances.end(), moved)) score.anchor.reset();
+}
+
+std::optional<Anchor> anchorOfMap(const TrajectoryScore& score, const Trajectory& final,
+                                  const std::vector<StampedCovariance>& covariances) {
+  if (!score.anchor || covariances.empty()) return score.anchor;
+  const Anchor& then = *score.anchor;
+  Pose2 T_now_then = covariances.back().T_world_origin;
+  const auto same = std::find_if(final.begin(), final.end(), [&](const StampedPose& pose) {
+    return std::abs(pose.stamp_s - then.stamp_s) <= kSameRow_s;
+  });
+  if (score.alignment != Alignment::kNone && same != final.end())
+    T_now_then = planarPart(same->T_world_body) * then.T_estimate_body.inverse();
+  Anchor now = then;
+  now.T_truth_estimate = then.T_truth_estimate * T_now_then.inverse();
+  now.T_estimate_body = T_now_then * then.T_estimate_body;
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+  R.topLeftCorner<2, 2>() = T_now_then.rotation();
+  now.covariance = R * then.covariance * R.transpose();
+  return now;
 }
 
 }  // namespace colonnade

@@ -12,6 +12,7 @@ namespace colonnade {
 /// relative to where the filter began: at one pose, the first matched one. Honest only where the
 /// estimate was sure there; what it was not sure of turns and shifts everything afterwards.
 struct Anchor {
+  double stamp_s = 0.0;  ///< of the anchored pose
   Pose2 T_truth_estimate;
   Pose2 T_estimate_body;                                 ///< the anchored pose
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of it: x, y, phi

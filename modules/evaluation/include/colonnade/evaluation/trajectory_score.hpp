@@ -83,7 +83,7 @@ struct TrajectoryScore {
   std::size_t nees_poses = 0;
   std::size_t nees_left_out = 0;  ///< poses the anchor does not serve
   std::string nees_refused;       ///< why covariances gave no NEES; empty otherwise
-  /// What NEES of a map is judged in; absent without covariances, and where the world moved.
+  /// What NEES is judged in, in the world as it was at the start; absent without covariances.
   std::optional<Anchor> anchor;
   SpanScore span;
   double coverage = 0.0;  ///< share of the truth's time span that matched poses cover
@@ -108,5 +108,10 @@ struct TrajectoryScore {
 TrajectoryScore evaluateTrajectory(const Trajectory& estimate, const Trajectory& truth,
                                    const EvaluationOptions& options = {},
                                    const std::vector<StampedCovariance>& covariances = {});
+
+/// What NEES of a map is judged in that lies in the world of `final`, the poses as they are known at
+/// the end, or, where that does not have the anchored pose, as the world lies at the end.
+std::optional<Anchor> anchorOfMap(const TrajectoryScore& score, const Trajectory& final,
+                                  const std::vector<StampedCovariance>& covariances);
 
 }  // namespace colonnade
