@@ -212,6 +212,8 @@ TEST(CovarianceCsv, ReadsBackWhatItWrote) {
   ASSERT_EQ(rows.size(), 2U);
   EXPECT_NEAR(rows[0].stamp_s, 1700000000.25, 1e-6);
   EXPECT_TRUE(rows[1].covariance.isApprox(2.0 * P, 1e-11));
+  std::ofstream(path) << "stamp,xx,xy,xphi,yy,yphi,phiphi,origin_x\n1,1,0,0,1,0,1,0\n";
+  EXPECT_THAT(readError(path), HasSubstr("covariance.csv:2: columns origin_x,origin_y,origin_phi"));
   std::ofstream(path) << "stamp,xx,xy,xphi,yy,yphi,phiphi\n1,1,0,0,1,0\n";
   EXPECT_THAT(readError(path), HasSubstr("covariance.csv:2: the header has 7 columns, this row 6"));
   std::ofstream(path) << "stamp,xx,xy,xphi,yy,yphi,phiphi\n1,1,0,0,1,0,nan\n";

@@ -291,6 +291,19 @@ TEST(Smoother, WhatAPriorHoldsTwiceBecomesOne) {
   }
 }
 
+/// What is new goes even where it was seen more often: a prior is not lost.
+TEST(Smoother, WhatIsKnownBeforehandStays) {
+  SimulatedDrive drive = simulatedDrive(70);
+  Drive::Prior prior = priorOf(drive, 0.1);
+  foundTwice(drive.start, 4, 12, {0.1, 0.05});
+  drive.start.prior = prior;
+  const Smoothing result = smooth(drive.start, kGate);
+  ASSERT_EQ(result.merged.size(), 1u);
+  EXPECT_EQ(result.merged.front().point, 12u);
+  EXPECT_EQ(result.merged.front().into, 4u);
+  EXPECT_TRUE(drive.start.one.empty());
+}
+
 /// Of a point 0.12 m beside another only those seen together can be told; one 0.3 m beside can,
 /// seen together or not. A name that was read thrice is not taken by what is seen often beside it.
 TEST(Smoother, NeighboursStayTwo) {

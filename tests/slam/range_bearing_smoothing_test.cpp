@@ -100,6 +100,29 @@ TEST(RangeBearingSmoothing, SaysWhatTheLogsIdentitiesWouldCost) {
   }
 }
 
+/// A log that tells wrong identities now and then would cost more by them.
+TEST(RangeBearingSmoothing, WrongIdentitiesCost) {
+  class Lying : public RingOfPosts {
+   public:
+    Lying() : RingOfPosts(9) {}
+    std::optional<Frame> next() override {
+      auto frame = RingOfPosts::next();
+      if (frame && truth.size() % 10 == 0 && !frame->range_bearing->readings.empty()) {
+        int& identity = frame->range_bearing->readings.front().id;
+        identity = 1 + (identity + 1) % kPosts;  // the next post on this side
+      }
+      return frame;
+    }
+  } source;
+  RangeBearingOptions options;
+  options.use_ids = false;
+  RangeBearingSession session(options, {}, {});
+  session.run(source, [](const auto&...) { return true; });
+  ASSERT_TRUE(session.smoothed());
+  EXPECT_LT(session.identityScore().rightShare(), 1.0);
+  EXPECT_GT(*session.smoothed()->cost_of_identities, session.smoothed()->how.cost + 100.0);
+}
+
 TEST(RangeBearingSmoothing, ALogWithoutReadingsStaysAsItIs) {
   class Nothing : public RingOfPosts {
    public:
@@ -165,6 +188,19 @@ TEST(RangeBearingSmoothing, WhatTheSensorIsOffByIsFound) {
       EXPECT_EQ(block.block_kind, BlockKind::kPoint);
   }
   EXPECT_LT(with_m, 0.8 * without_m);
+}
+
+/// Only what is sure is said.
+TEST(RangeBearingSmoothing, TheNoteNamesWhatIsOff) {
+  RingOfPosts source(2, 0, 4 * RingOfPosts::kSteps, 5.0, 0.9);
+  source.wheel_noise = 0.03;
+  source.sensor.range_skew = 0.1;
+  RangeBearingSession session({}, {}, {});
+  session.run(source, [](const auto&...) { return true; });
+  ASSERT_EQ(session.notes().size(), 1u);
+  const std::string note = session.notes().front();
+  EXPECT_NE(note.find(" % longer for each radian to the left; if"), std::string::npos) << note;
+  EXPECT_EQ(note.find("bearings"), std::string::npos) << note;
 }
 
 /// Motions the filter did not take are no part of the drive.

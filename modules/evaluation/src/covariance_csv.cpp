@@ -2,10 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "colonnade/evaluation/covariance_csv.hpp"
 
+#include <algorithm>
+#include <array>
+#include <iterator>
 #include <string>
 
 #include "colonnade/base/atomic_file.hpp"
 #include "colonnade/base/csv_table.hpp"
+#include "colonnade/base/error.hpp"
 #include "colonnade/base/text.hpp"
 
 namespace colonnade {
@@ -13,6 +17,7 @@ namespace {
 
 constexpr const char* kHeader = "stamp,xx,xy,xphi,yy,yphi,phiphi";
 constexpr const char* kOrigin = "origin_x,origin_y,origin_phi";
+constexpr std::array kOrigins = {"origin_x", "origin_y", "origin_phi"};
 
 }  // namespace
 
@@ -23,7 +28,8 @@ void writeCovarianceCsv(const std::filesystem::path& path,
     const auto& P = row.covariance;
     const Pose2& T = row.T_world_origin;
     text += formatFixed(row.stamp_s, 6);
-    for (const double value : {P(0, 0), P(0, 1), P(0, 2), P(1, 1), P(1, 2), P(2, 2), T.x, T.y, T.phi})
+    for (const double value :
+         {P(0, 0), P(0, 1), P(0, 2), P(1, 1), P(1, 2), P(2, 2), T.x, T.y, T.phi})
       text += "," + formatDouble(value, 12);
     text += "\n";
   }
@@ -42,7 +48,11 @@ std::vector<StampedCovariance> readCovarianceCsv(const std::filesystem::path& pa
     const double yy = entry->number("yy"), yphi = entry->number("yphi");
     const double phiphi = entry->number("phiphi");
     row.covariance << xx, xy, xphi, xy, yy, yphi, xphi, yphi, phiphi;
-    if (entry->has("origin_x"))
+    const auto told = std::count_if(kOrigins.begin(), kOrigins.end(),
+                                    [&](const char* column) { return entry->has(column); });
+    if (told > 0 && told < std::ssize(kOrigins))
+      throw Error(entry->where() + ": columns " + kOrigin + " belong together");
+    if (told > 0)
       row.T_world_origin = {entry->number("origin_x"), entry->number("origin_y"),
                             entry->number("origin_phi")};
     rows.push_back(row);

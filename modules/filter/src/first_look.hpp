@@ -13,8 +13,8 @@ namespace colonnade {
 
 /// Where the landmark of a measurement with range may be, by places alone: a cheap look before its
 /// innovation. Rules out only points whose squared Mahalanobis distance is larger than asked for:
-/// four errors that may hang together (place and heading of the robot, landmark, sensor) have at most
-/// four times the sum of their variances; the rest is for what is not linear.
+/// four errors that may hang together (place and heading of the robot, landmark, sensor) have at
+/// most four times the sum of their variances; the rest is for what is not linear.
 class FirstLook {
  public:
   static constexpr double kReserve = 5.0;

@@ -24,7 +24,8 @@ constexpr double kDearest = 0.999999;
 /// What damping 1 holds xi and a point to, m and rad. Damping by the diagonal of H would weigh the
 /// stiffness of the motions, which resist no turn of a long stretch.
 constexpr double kDampedSigma = 0.1;
-/// Trials of other drives: so many poses and sightings in all steps together.
+/// Trials of other drives: so many poses and sightings in all steps together; points known
+/// beforehand, which all hang together, take as long as their square.
 constexpr std::size_t kMostTried = 1'000'000;
 
 using Sparse = Eigen::SparseMatrix<double>;
@@ -103,7 +104,9 @@ double costOfUnused(Eigen::Index size, double probability) {
 }
 
 int affordableSteps(const Drive& drive) {
-  return static_cast<int>(1 + kMostTried / (drive.T_world_robot.size() + drive.sightings.size()));
+  const std::size_t known = drive.prior ? drive.prior->points_world.size() : 0;
+  return static_cast<int>(
+      1 + kMostTried / (drive.T_world_robot.size() + drive.sightings.size() + known * known));
 }
 
 }  // namespace colonnade

@@ -78,9 +78,7 @@ Eigen::MatrixXd pointCovariance(const Drive& drive) {
   return covarianceOf(factor, at.pointAt(0), at.sensorAt() - at.pointAt(0));
 }
 
-}  // namespace
-
-Smoothing smooth(Drive& drive, double gate_probability) {
+Smoothing smoothWithoutCovariance(Drive& drive, double gate_probability) {
   Smoothing result;
   for (Drive::Sighting& sighting : drive.sightings)
     sighting.used = std::isfinite(distance2(drive, sighting));
@@ -88,8 +86,20 @@ Smoothing smooth(Drive& drive, double gate_probability) {
   settle(drive, gate_probability, result);
   mend(drive, gate_probability, result);
   mergeDuplicates(drive, gate_probability, result);
+  return result;
+}
+
+}  // namespace
+
+Smoothing smooth(Drive& drive, double gate_probability) {
+  Smoothing result = smoothWithoutCovariance(drive, gate_probability);
+  if (result.steps == 0) return result;
   if (drive.points_world.size() <= kMostCovariances) result.covariance = pointCovariance(drive);
   return result;
+}
+
+double smoothedCost(Drive drive, double gate_probability) {
+  return smoothWithoutCovariance(drive, gate_probability).cost;
 }
 
 std::optional<SensorFit> sensorFit(const Drive& drive, const SensorErrors& sigmas) {

@@ -107,7 +107,7 @@ std::optional<double> costOfIdentities(Drive drive, const std::vector<int>& iden
     if (const auto bearer = bearers.find(identities[i]); bearer != bearers.end())
       drive.sightings[i].point = static_cast<std::size_t>(number(bearer->second));
   drive.nameless.clear();
-  return smooth(drive, gate_probability).cost;
+  return smoothedCost(std::move(drive), gate_probability);
 }
 
 }  // namespace

@@ -162,8 +162,10 @@ std::vector<std::string> RangeBearingSession::notes() const {
   std::vector<std::string> notes;
   if (smoothed_ && smoothed_->suspected)
     if (const std::string errors = described(*smoothed_->suspected); !errors.empty())
-      notes.push_back("the sensor seems to read " + errors +
-                      "; if it is not the wheels, RangeBearing.estimate_sensor=true corrects that");
+      notes.push_back((from_ && !search_ ? "compared with the map the sensor" : "the sensor") +
+                      (" seems to read " + errors) + "; if it is not the wheels" +
+                      (from_ && !search_ ? " or the map" : "") +
+                      ", RangeBearing.estimate_sensor=true corrects that");
   if (!from_ || search_) return notes;
   const auto decisions = estimator_.decisions();
   const auto known = std::count_if(decisions.begin(), decisions.end(),

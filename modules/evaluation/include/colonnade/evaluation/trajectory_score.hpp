@@ -109,8 +109,8 @@ TrajectoryScore evaluateTrajectory(const Trajectory& estimate, const Trajectory&
                                    const EvaluationOptions& options = {},
                                    const std::vector<StampedCovariance>& covariances = {});
 
-/// What NEES of a map is judged in that lies in the world of `final`, the poses as they are known at
-/// the end, or, where that does not have the anchored pose, as the world lies at the end.
+/// What NEES of a map is judged in that lies in the world of `final`, the poses as they are known
+/// at the end, or, where that does not have the anchored pose, as the world lies at the end.
 std::optional<Anchor> anchorOfMap(const TrajectoryScore& score, const Trajectory& final,
                                   const std::vector<StampedCovariance>& covariances);
 

@@ -84,6 +84,9 @@ struct Smoothing {
 /// without a sighting is left as it is.
 Smoothing smooth(Drive& drive, double gate_probability);
 
+/// What a drive costs once it is smoothed.
+double smoothedCost(Drive drive, double gate_probability);
+
 /// What the sensor of a smoothed drive is off by, and how sure that is given everything: as found
 /// where the drive has one, otherwise as it would be found with these standard deviations
 /// beforehand, to first order. Nothing where the equations are singular.

@@ -32,8 +32,10 @@ class DriveRecord {
     /// Where they are not: what would make the readings fit far better, to first order.
     std::optional<SensorEstimate> suspected;
     Smoothing how;
-    /// Where identities are hidden but told: how.cost had every reading been taken for the landmark
-    /// its identity is (bearersOf). Larger: what is wrong fits better than what is right.
+    /// Where identities are hidden but told: how.cost had every reading that was decided been taken
+    /// for the landmark its identity is (bearersOf), where it is one. Larger: what is wrong fits
+    /// better than what is right, unless landmarks were merged wrongly or a loaded map holds some
+    /// twice.
     std::optional<double> cost_of_identities;
   };
   /// The drive past the landmarks the estimator knows at the end, with its last word on which
