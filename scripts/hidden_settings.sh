@@ -3,16 +3,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # scripts/hidden_settings.sh MRCLAM_FOLDER OUTPUT [BUILD]: the robots of a UTIAS MRCLAM data set with
 # hidden identities under several settings, a line of Markdown for each, and the mean of all.
-# SETTINGS in the environment are further options of run, such as "--set RangeBearing.estimate_sensor=true".
+# SETTINGS: see mrclam_logs.sh.
 set -eu
-data=$1 out=$2 build=${3:-build/release}
-colonnade=$build/apps/colonnade/colonnade
-robots="1 2 3 4 5"
-mkdir -p "$out"
-for robot in $robots; do
-  log=$out/robot$robot.rawlog
-  [ -e "$log" ] || "$colonnade" import mrclam "$data" --robot "$robot" -o "$log" >"$out/import$robot.txt" 2>&1
-done
+. "$(dirname "$0")/mrclam_logs.sh"
 echo "ATE [m] online / afterwards, right associations:"
 echo
 echo "| sigmas, hypotheses | 1 | 2 | 3 | 4 | 5 |"
@@ -22,7 +15,7 @@ for setting in "0.05 0.6 40" "0.05 1.0 40" "0.07 1.0 40" "0.1 1.0 40" "0.05 0.6 
   row="| $1 m, $2 degrees, $3 |"
   for robot in $robots; do
     run=$out/$robot-$1-$2-$3
-    [ -e "$run" ] || "$colonnade" run "$out/robot$robot.rawlog" ${SETTINGS:-} -o "$run" --ground-truth "$out/robot${robot}_ground_truth.tum" \
+    [ -e "$run" ] || "$colonnade" run "$out/robot$robot.rawlog" $settings -o "$run" --ground-truth "$out/robot${robot}_ground_truth.tum" \
       --set RangeBearing.use_ids=false --set RangeBearing.range_sigma_m="$1" --set RangeBearing.bearing_sigma_deg="$2" \
       --set RangeBearing.hypotheses="$3" >"$run.txt" 2>&1
     row="$row $(python3 -c '

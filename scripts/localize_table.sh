@@ -4,16 +4,12 @@
 # scripts/localize_table.sh MRCLAM_FOLDER OUTPUT [BUILD]: every robot of a UTIAS MRCLAM data set
 # localised in the map of every robot, from a start nobody knows; two tables of Markdown, with the
 # log's identities and with hidden ones.
-# SETTINGS in the environment are further options of run, such as "--set RangeBearing.estimate_sensor=true".
+# SETTINGS: see mrclam_logs.sh.
 set -eu
-data=$1 out=$2 build=${3:-build/release}
-colonnade=$build/apps/colonnade/colonnade
-robots="1 2 3 4 5"
-mkdir -p "$out"
+. "$(dirname "$0")/mrclam_logs.sh"
 for robot in $robots; do
   log=$out/robot$robot.rawlog
-  [ -e "$log" ] || "$colonnade" import mrclam "$data" --robot "$robot" -o "$log" >"$out/import$robot.txt" 2>&1
-  [ -e "$out/map$robot" ] || "$colonnade" run "$log" ${SETTINGS:-} -o "$out/map$robot" >"$out/map$robot.txt" 2>&1
+  [ -e "$out/map$robot" ] || "$colonnade" run "$log" $settings -o "$out/map$robot" >"$out/map$robot.txt" 2>&1
 done
 for use_ids in true false; do
   echo
@@ -25,7 +21,7 @@ for use_ids in true false; do
     row="| $map |"
     for robot in $robots; do
       run=$out/$map-$robot-$use_ids
-      [ -e "$run" ] || "$colonnade" run "$out/robot$robot.rawlog" ${SETTINGS:-} -o "$run" --localize --start anywhere \
+      [ -e "$run" ] || "$colonnade" run "$out/robot$robot.rawlog" $settings -o "$run" --localize --start anywhere \
         --map "$out/map$map/map.colonnade" --ground-truth "$out/robot${robot}_ground_truth.tum" \
         --set RangeBearing.use_ids=$use_ids >"$run.txt" 2>&1 || true
       row="$row $(python3 - "$run" <<'PYTHON'

@@ -3,11 +3,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # scripts/range_bearing_table.sh MRCLAM_FOLDER OUTPUT [BUILD]: the robots of a UTIAS MRCLAM data set
 # through Colonnade and MRPT's kf-slam with one set of sigmas; one line of Markdown for each run.
-# SETTINGS in the environment are further options of run, such as "--set RangeBearing.estimate_sensor=true".
+# SETTINGS: see mrclam_logs.sh.
 set -eu
-data=$1 out=$2 build=${3:-build/release}
-colonnade=$build/apps/colonnade/colonnade
-mkdir -p "$out"
+. "$(dirname "$0")/mrclam_logs.sh"
 figures() {  # ROBOT NAME TRAJECTORY LANDMARKS SUMMARY FINAL_TRAJECTORY
   smoothed="{}"
   [ -z "${6:-}" ] || smoothed=$("$colonnade" evaluate "$6" --ground-truth "$out/robot$1_ground_truth.tum" \
@@ -45,9 +43,8 @@ print("| %s | %s | %.3f | %s | %.1f | %s | %s |" % (robot, name, T["ate_rmse_m"]
 }
 echo "| robot | method | ATE [m] | ATE of trajectory_final [m] | heading [deg] | landmarks | their error, mean / largest [m] | right associations |"
 echo "|---|---|---|---|---|---|---|---|"
-for robot in 1 2 3 4 5; do
+for robot in $robots; do
   log=$out/robot$robot.rawlog
-  [ -e "$log" ] || "$colonnade" import mrclam "$data" --robot $robot -o "$log" >"$out/import$robot.txt" 2>/dev/null
   for method in a b c; do
     case $method in
       a) name="a) range and bearing" set="RangeBearing.use_ids=true" ;;
@@ -55,7 +52,7 @@ for robot in 1 2 3 4 5; do
       c) name="c) identities hidden" set="RangeBearing.use_ids=false" ;;
     esac
     folder=$out/$robot$method
-    [ -e "$folder" ] || "$colonnade" run "$log" ${SETTINGS:-} -o "$folder" --set $set >"$folder.txt" 2>&1
+    [ -e "$folder" ] || "$colonnade" run "$log" $settings -o "$folder" --set $set >"$folder.txt" 2>&1
     figures $robot "$name" "$folder/trajectory.tum" "$folder/landmarks.csv" "$folder/summary.json" \
       "$folder/trajectory_final.tum"
   done

@@ -4,11 +4,9 @@
 # scripts/shared_map_table.sh MRCLAM_FOLDER OUTPUT [BUILD]: one map for all robots of a UTIAS MRCLAM
 # data set, each going on in the map of those before, from a start nobody knows; a table of Markdown
 # with the log's identities and one with hidden ones.
-# SETTINGS in the environment are further options of run, such as "--set RangeBearing.estimate_sensor=true".
+# SETTINGS: see mrclam_logs.sh.
 set -eu
-data=$1 out=$2 build=${3:-build/release}
-colonnade=$build/apps/colonnade/colonnade
-mkdir -p "$out"
+. "$(dirname "$0")/mrclam_logs.sh"
 for use_ids in true false; do
   echo
   echo "RangeBearing.use_ids=$use_ids:"
@@ -18,9 +16,8 @@ for use_ids in true false; do
   map=""
   for robot in 1 5 3 4 2; do
     log=$out/robot$robot.rawlog
-    [ -e "$log" ] || "$colonnade" import mrclam "$data" --robot "$robot" -o "$log" >"$out/import$robot.txt" 2>&1
     run=$out/$robot-$use_ids
-    [ -e "$run" ] || "$colonnade" run "$log" ${SETTINGS:-} -o "$run" ${map:+--start anywhere --map "$map"} \
+    [ -e "$run" ] || "$colonnade" run "$log" $settings -o "$run" ${map:+--start anywhere --map "$map"} \
       --ground-truth "$out/robot${robot}_ground_truth.tum" --set RangeBearing.use_ids=$use_ids >"$run.txt" 2>&1
     map=$run/map.colonnade
     python3 - "$run" "$robot" <<'PYTHON'

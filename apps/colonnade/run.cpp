@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Colonnade authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -105,10 +104,8 @@ void describe(const RangeBearingSession& session, nlohmann::ordered_json& json) 
   if (const auto sensor = session.sensor()) {
     const SensorErrors::Vector errors = sensor->errors.vector();
     const SensorErrors::Vector beforehand = session.options().sensor_sigmas.vector();
-    constexpr std::array kNames = {"range_offset_m", "range_scale", "range_skew", "bearing_offset",
-                                   "bearing_scale"};
     for (int i = 0; i < SensorErrors::kSize; ++i)
-      json["sensor"][kNames[static_cast<std::size_t>(i)]] = {
+      json["sensor"][SensorErrors::kNames[static_cast<std::size_t>(i)]] = {
           {"estimate", errors(i)},
           {"sigma", std::sqrt(sensor->covariance(i, i))},
           {"sigma_beforehand", beforehand(i)}};

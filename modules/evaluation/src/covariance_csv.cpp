@@ -2,9 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "colonnade/evaluation/covariance_csv.hpp"
 
-#include <algorithm>
-#include <array>
-#include <iterator>
 #include <string>
 
 #include "colonnade/base/atomic_file.hpp"
@@ -17,7 +14,6 @@ namespace {
 
 constexpr const char* kHeader = "stamp,xx,xy,xphi,yy,yphi,phiphi";
 constexpr const char* kOrigin = "origin_x,origin_y,origin_phi";
-constexpr std::array kOrigins = {"origin_x", "origin_y", "origin_phi"};
 
 }  // namespace
 
@@ -48,11 +44,11 @@ std::vector<StampedCovariance> readCovarianceCsv(const std::filesystem::path& pa
     const double yy = entry->number("yy"), yphi = entry->number("yphi");
     const double phiphi = entry->number("phiphi");
     row.covariance << xx, xy, xphi, xy, yy, yphi, xphi, yphi, phiphi;
-    const auto told = std::count_if(kOrigins.begin(), kOrigins.end(),
-                                    [&](const char* column) { return entry->has(column); });
-    if (told > 0 && told < std::ssize(kOrigins))
+    const bool x = entry->has("origin_x"), y = entry->has("origin_y");
+    const bool phi = entry->has("origin_phi");
+    if (x != y || y != phi)
       throw Error(entry->where() + ": columns " + kOrigin + " belong together");
-    if (told > 0)
+    if (x)
       row.T_world_origin = {entry->number("origin_x"), entry->number("origin_y"),
                             entry->number("origin_phi")};
     rows.push_back(row);

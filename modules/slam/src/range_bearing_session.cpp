@@ -3,44 +3,14 @@
 #include "colonnade/slam/range_bearing_session.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <utility>
 
-#include "colonnade/base/text.hpp"
 #include "colonnade/filter/covariance.hpp"
+#include "sensor_note.hpp"
 #include "stopwatch.hpp"
 
 namespace colonnade {
-namespace {
-
-constexpr double kSure = 3.0;  ///< deviations
-
-/// Those errors of a sensor that are sure, in words.
-std::string described(const SensorEstimate& sensor) {
-  const SensorErrors::Vector e = sensor.errors.vector();
-  const auto isSure = [&](int i) {
-    return std::abs(e(i)) > kSure * std::sqrt(sensor.covariance(i, i));
-  };
-  std::vector<std::string> ranges, bearings;
-  const auto add = [&](std::vector<std::string>& to, int i, double unit, int digits,
-                       const char* more, const char* less) {
-    if (isSure(i))
-      to.push_back(formatFixed(std::abs(unit * e(i)), digits) + (e(i) > 0.0 ? more : less));
-  };
-  add(ranges, 0, 1.0, 3, " m long", " m short");
-  add(ranges, 1, 100.0, 1, " % long", " % short");
-  add(ranges, 2, 100.0, 1, " % longer for each radian to the left",
-      " % shorter for each radian to the left");
-  add(bearings, 3, degrees(1.0), 1, " degrees to the left", " degrees to the right");
-  add(bearings, 4, 100.0, 1, " % wide", " % narrow");
-  std::vector<std::string> parts;
-  if (!ranges.empty()) parts.push_back("ranges " + joined(ranges, ", "));
-  if (!bearings.empty()) parts.push_back("bearings " + joined(bearings, ", "));
-  return joined(parts, "; ");
-}
-
-}  // namespace
 
 RangeBearingSession::RangeBearingSession(const RangeBearingOptions& options,
                                          const FilterOptions& filter, const MotionOptions& motion,
@@ -161,11 +131,8 @@ SavedMap RangeBearingSession::savedMap() const {
 std::vector<std::string> RangeBearingSession::notes() const {
   std::vector<std::string> notes;
   if (smoothed_ && smoothed_->suspected)
-    if (const std::string errors = described(*smoothed_->suspected); !errors.empty())
-      notes.push_back((from_ && !search_ ? "compared with the map the sensor" : "the sensor") +
-                      (" seems to read " + errors) + "; if it is not the wheels" +
-                      (from_ && !search_ ? " or the map" : "") +
-                      ", RangeBearing.estimate_sensor=true corrects that");
+    if (auto note = sensorNote(*smoothed_->suspected, from_ && !search_); !note.empty())
+      notes.push_back(std::move(note));
   if (!from_ || search_) return notes;
   const auto decisions = estimator_.decisions();
   const auto known = std::count_if(decisions.begin(), decisions.end(),

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 
 #include "colonnade/base/measurement.hpp"
 #include "colonnade/filter/measurement_models.hpp"
@@ -27,6 +28,8 @@ struct SensorErrors {
   Vector vector() const {
     return Vector(range_offset_m, range_scale, range_skew, bearing_offset, bearing_scale);
   }
+  static constexpr std::array kNames = {"range_offset_m", "range_scale", "range_skew",
+                                        "bearing_offset", "bearing_scale"};
   static SensorErrors of(const Vector& v) { return {v(0), v(1), v(2), v(3), v(4)}; }
 };
 
