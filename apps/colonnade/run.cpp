@@ -185,19 +185,17 @@ std::vector<std::string> notesOf(const RangeBearingSession& session) { return se
 
 /// In the world of map().
 Pose2 poseOf(const Session& session) { return session.filter().pose(); }
-Pose2 poseOf(const RangeBearingSession& session) { return session.estimator().pose(); }
+Pose2 poseOf(const RangeBearingSession& session) { return session.now().T_world_robot; }
 Eigen::Matrix3d poseCovarianceOf(const Session& session) {
   return session.filter().poseCovariance();
 }
 Eigen::Matrix3d poseCovarianceOf(const RangeBearingSession& session) {
-  return session.estimator().poseCovariance();
+  return session.now().covariance;
 }
 
 /// StampedCovariance::T_world_origin.
 Pose2 worldOriginOf(const Session&) { return {}; }
-Pose2 worldOriginOf(const RangeBearingSession& session) {
-  return session.estimator().worldOrigin();
-}
+Pose2 worldOriginOf(const RangeBearingSession& session) { return session.now().T_world_origin; }
 
 struct RunInputs {
   const RunArguments& arguments;

@@ -11,6 +11,12 @@
 namespace colonnade {
 namespace {
 
+/// Of a line, in [0, pi).
+double undirected(double direction) {
+  const double wrapped = wrapAngle(direction);
+  return wrapped < 0.0 ? wrapped + kPi : (wrapped >= kPi ? 0.0 : wrapped);
+}
+
 /// An inverse depth that may as well be zero is a direction yet, no place.
 bool isSettledEnough(const State& state, const Block& block) {
   if (block.block_kind != BlockKind::kInverseDepth) return true;
@@ -43,8 +49,7 @@ void fillLine(const State& state, const Block& block, LandmarkRecord& record) {
   record.extent_a = at(block.evidence.along_min_m);
   record.extent_b = at(block.evidence.along_max_m);
   record.p_world = at(middle);
-  const double direction = wrapAngle(y(2) + kPi / 2.0);
-  record.direction = direction < 0.0 ? direction + kPi : (direction >= kPi ? 0.0 : direction);
+  record.direction = undirected(y(2) + kPi / 2.0);
   record.direction_sigma = std::sqrt(std::max(0.0, state.P(block.offset + 2, block.offset + 2)));
   Eigen::RowVector4d J;
   J << m.transpose(), -middle, 1.0;
@@ -54,6 +59,18 @@ void fillLine(const State& state, const Block& block, LandmarkRecord& record) {
 }
 
 }  // namespace
+
+LandmarkMap moved(LandmarkMap map, const Pose2& T_new_old) {
+  const Eigen::Matrix2d R = T_new_old.rotation();
+  for (LandmarkRecord& landmark : map) {
+    landmark.p_world = transform(T_new_old, landmark.p_world);
+    landmark.extent_a = transform(T_new_old, landmark.extent_a);
+    landmark.extent_b = transform(T_new_old, landmark.extent_b);
+    landmark.covariance = (R * landmark.covariance * R.transpose()).eval();
+    if (landmark.direction) landmark.direction = undirected(*landmark.direction + T_new_old.phi);
+  }
+  return map;
+}
 
 LandmarkMap EkfSlam::landmarkMap() const {
   if (!resting_.empty()) return EkfSlam(options_, fullState()).landmarkMap();

@@ -55,13 +55,6 @@ double huberBound(Eigen::Index size) {
   return std::sqrt(chiSquareQuantile(kHuberProbability, static_cast<int>(size)));
 }
 
-/// How (x, y, phi) of a pose moves with xi.
-Eigen::Matrix3d liftOf(const Pose2& T_world_robot) {
-  Eigen::Matrix3d lift = Eigen::Matrix3d::Identity();
-  lift.col(2).head<2>() << -T_world_robot.y, T_world_robot.x;
-  return lift;
-}
-
 }  // namespace
 
 NormalEquations::NormalEquations(const Drive& drive)
@@ -78,6 +71,7 @@ NormalEquations::NormalEquations(const Drive& drive)
   for (const Drive::Sighting& sighting : drive.sightings)
     if (sighting.used) addSighting(drive, sighting);
   if (drive.sensor) addSensor(*drive.sensor);
+  for (const Drive::Depth& depth : drive.depths) addDepth(drive, depth);
   for (const Drive::Pair& pair : drive.one) addPairOfOne(drive, pair);
   for (Eigen::Index i = pointAt(0); i < sensorAt(); ++i)
     entries_.emplace_back(i, i, 1.0 / (kLooseSigma_m * kLooseSigma_m));
@@ -117,6 +111,21 @@ void NormalEquations::addMotion(const Drive& drive, std::size_t pose) {
   const Eigen::Matrix3d weight = informationOf(motion);
   cost_ += residual.dot(weight * residual);
   addPair(poseAt(pose - 1), poseAt(pose), -J, J, weight, residual);
+}
+
+void NormalEquations::addDepth(const Drive& drive, const Drive::Depth& depth) {
+  const Pose2& T_world_robot = drive.T_world_robot[depth.pose];
+  const Eigen::Vector2d camera = transform(T_world_robot, depth.p_robot_camera);
+  const Eigen::Vector2d ray = drive.points_world[depth.point] - camera;
+  const double d = ray.norm();
+  const Eigen::RowVector2d J_point = -ray.transpose() / (d * d * d);
+  Eigen::RowVector3d J_pose;
+  J_pose << -J_point, -J_point * Eigen::Vector2d(-camera.y(), camera.x());
+  const Eigen::MatrixXd weight =
+      Eigen::MatrixXd::Constant(1, 1, 1.0 / (depth.sigma * depth.sigma));
+  const Eigen::VectorXd residual = Eigen::VectorXd::Constant(1, 1.0 / d - depth.inverse_m);
+  cost_ += residual.dot(weight * residual);
+  addPair(poseAt(depth.pose), pointAt(depth.point), J_pose, J_point, weight, residual);
 }
 
 void NormalEquations::addPairOfOne(const Drive& drive, const Drive::Pair& pair) {
@@ -178,6 +187,12 @@ void NormalEquations::addPair(Eigen::Index a, Eigen::Index b, const Eigen::Matri
   addMixed(a, b, J_a.transpose() * weight * J_b);
   if (a >= 0) g_.segment(a, J_a.cols()) += J_a.transpose() * weight * residual;
   if (b >= 0) g_.segment(b, J_b.cols()) += J_b.transpose() * weight * residual;
+}
+
+Eigen::Matrix3d liftOf(const Pose2& T_world_robot) {
+  Eigen::Matrix3d lift = Eigen::Matrix3d::Identity();
+  lift.col(2).head<2>() << -T_world_robot.y, T_world_robot.x;
+  return lift;
 }
 
 void move(Drive& drive, const NormalEquations& at, const Eigen::VectorXd& dx) {

@@ -36,6 +36,7 @@ class NormalEquations {
  private:
   void addPrior(const Drive& drive, const Drive::Prior& prior);
   void addMotion(const Drive& drive, std::size_t pose);
+  void addDepth(const Drive& drive, const Drive::Depth& depth);
   void addPairOfOne(const Drive& drive, const Drive::Pair& pair);
   void addSensor(const Drive::Sensor& sensor);
   void addSighting(const Drive& drive, const Drive::Sighting& sighting);
@@ -53,6 +54,9 @@ class NormalEquations {
   Eigen::VectorXd g_;
   double cost_ = 0.0;
 };
+
+/// How (x, y, phi) of a pose moves with xi.
+Eigen::Matrix3d liftOf(const Pose2& T_world_robot);
 
 /// The drive's estimate moved by dx.
 void move(Drive& drive, const NormalEquations& at, const Eigen::VectorXd& dx);

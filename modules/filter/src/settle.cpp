@@ -30,6 +30,25 @@ constexpr std::size_t kMostTried = 1'000'000;
 
 using Sparse = Eigen::SparseMatrix<double>;
 
+/// What is sought, without what was measured.
+class Estimate {
+ public:
+  explicit Estimate(const Drive& drive)
+      : T_world_robot_(drive.T_world_robot),
+        points_world_(drive.points_world),
+        sensor_(drive.sensor) {}
+  void putBack(Drive& drive) const {
+    drive.T_world_robot = T_world_robot_;
+    drive.points_world = points_world_;
+    drive.sensor = sensor_;
+  }
+
+ private:
+  std::vector<Pose2> T_world_robot_;
+  std::vector<Eigen::Vector2d> points_world_;
+  std::optional<Drive::Sensor> sensor_;
+};
+
 /// Downhill, with Levenberg's damping (Quarterly of Applied Mathematics 2, 1944): it grows where a
 /// step does not help.
 void descend(Drive& drive, Smoothing& result) {
@@ -48,15 +67,15 @@ void descend(Drive& drive, Smoothing& result) {
       damping *= 10.0;
       continue;
     }
-    Drive moved = drive;
-    move(moved, here, factor.solve(-here.g()));
-    NormalEquations there(moved);
+    const Estimate former(drive);
+    move(drive, here, factor.solve(-here.g()));
+    NormalEquations there(drive);
     const double gained = here.cost() - there.cost();
     if (!(gained >= 0.0)) {
+      former.putBack(drive);
       damping *= 10.0;
       continue;
     }
-    drive = std::move(moved);
     here = std::move(there);
     H = here.H();
     result.converged =

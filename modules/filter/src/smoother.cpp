@@ -78,12 +78,18 @@ Eigen::MatrixXd pointCovariance(const Drive& drive) {
   return covarianceOf(factor, at.pointAt(0), at.sensorAt() - at.pointAt(0));
 }
 
+/// Whether there was anything to do.
+bool settled(Drive& drive, double gate_probability, Smoothing& result) {
+  for (Drive::Sighting& sighting : drive.sightings)
+    sighting.used = sighting.used && std::isfinite(distance2(drive, sighting));
+  if (drive.T_world_robot.size() < 2 || drive.sightings.empty()) return false;
+  settle(drive, gate_probability, result);
+  return true;
+}
+
 Smoothing smoothWithoutCovariance(Drive& drive, double gate_probability) {
   Smoothing result;
-  for (Drive::Sighting& sighting : drive.sightings)
-    sighting.used = std::isfinite(distance2(drive, sighting));
-  if (drive.T_world_robot.size() < 2 || drive.sightings.empty()) return result;
-  settle(drive, gate_probability, result);
+  if (!settled(drive, gate_probability, result)) return result;
   mend(drive, gate_probability, result);
   mergeDuplicates(drive, gate_probability, result);
   return result;
@@ -96,6 +102,21 @@ Smoothing smooth(Drive& drive, double gate_probability) {
   if (result.steps == 0) return result;
   if (drive.points_world.size() <= kMostCovariances) result.covariance = pointCovariance(drive);
   return result;
+}
+
+Smoothing smoothOn(Drive& drive, double gate_probability) {
+  Smoothing result;
+  settled(drive, gate_probability, result);
+  return result;
+}
+
+std::optional<Eigen::Matrix3d> lastPoseCovariance(const Drive& drive) {
+  const NormalEquations at(drive);
+  const Eigen::SimplicialLDLT<Sparse> factor(at.H());
+  const std::size_t last = drive.T_world_robot.size() - 1;
+  if (factor.info() != Eigen::Success || last < at.firstFreePose()) return std::nullopt;
+  const Eigen::Matrix3d lift = liftOf(drive.T_world_robot[last]);
+  return lift * covarianceOf(factor, at.poseAt(last), 3) * lift.transpose();
 }
 
 double smoothedCost(Drive drive, double gate_probability) {

@@ -10,8 +10,7 @@
 
 #include "colonnade/filter/gate.hpp"
 #include "colonnade/slam/identity_score.hpp"
-#include "known_map.hpp"
-#include "range_bearing_world.hpp"
+#include "prepared_drive.hpp"
 
 namespace colonnade {
 namespace {
@@ -30,6 +29,7 @@ void keepPoints(Drive& drive, const std::vector<std::size_t>& kept) {
     nameless.push_back(drive.nameless[kept[k]]);
   }
   for (Drive::Sighting& sighting : drive.sightings) sighting.point = place[sighting.point];
+  for (Drive::Depth& depth : drive.depths) depth.point = place[depth.point];
   drive.points_world = std::move(points);
   drive.nameless = std::move(nameless);
 }
@@ -112,19 +112,29 @@ std::optional<double> costOfIdentities(Drive drive, const std::vector<int>& iden
 
 }  // namespace
 
-void DriveRecord::add(double stamp_s, const RangeBearingScan& scan,
-                      const RangeBearingReport& report, const Pose2& T_world_robot) {
+const DriveRecord::Now& DriveRecord::add(double stamp_s, const RangeBearingScan& scan,
+                                         const RangeBearingReport& report,
+                                         const RangeBearingEstimator& estimator,
+                                         const RangeBearingOptions& options,
+                                         const std::optional<Resumption>& from) {
   for (std::size_t i = 0; i < scan.readings.size(); ++i)
-    readings_.push_back({stamps_s_.size(), scan.readings[i].id, report.measurements[i]});
+    readings_.push_back({stamps_s_.size(), scan.readings[i].id, report.measurements[i], {}});
   stamps_s_.push_back(stamp_s);
-  T_world_robot_.push_back(T_world_robot);
   motions_.push_back({report.T_previous_robot, report.motion_covariance});
+  moveOn(estimator);
+  if (isDue(options)) smoothSoFar(estimator, options, from);
+  said_.push_back(now_.T_world_robot);
+  return now_;
 }
 
-DriveRecord::NamedDrive DriveRecord::driveOf(const RangeBearingEstimator& estimator,
-                                             const LandmarkMap& map, bool use_ids) const {
-  NamedDrive named{{T_world_robot_, motions_, {}, {}}, {}};
-  Drive& drive = named.drive;
+std::optional<DriveRecord::Prepared> DriveRecord::prepared(
+    const RangeBearingEstimator& estimator, const LandmarkMap& map,
+    const RangeBearingOptions& options, const std::optional<Resumption>& from) const {
+  Prepared result;
+  Drive& drive = result.drive;
+  drive.T_world_robot = T_world_robot_;
+  drive.motions = motions_;
+  if (options.estimate_sensor) drive.sensor = {{}, options.sensor_sigmas};
   std::map<LandmarkId, std::size_t> point_of_landmark;
   std::map<int, std::size_t> point_of_identity;
   for (const LandmarkRecord& landmark : map) {
@@ -135,51 +145,55 @@ DriveRecord::NamedDrive DriveRecord::driveOf(const RangeBearingEstimator& estima
     drive.nameless.push_back(!identity);
     drive.points_world.push_back(landmark.p_world);
   }
+  std::vector<bool> seen(map.size(), false);
   const auto decisions = estimator.decisions();
   for (std::size_t i = 0; i < readings_.size(); ++i) {
     const Reading& reading = readings_[i];
     if (!reading.measurement) continue;
     std::optional<std::size_t> point;
     const auto bearer = point_of_identity.find(reading.identity);
-    if (use_ids && reading.identity >= 0 && bearer != point_of_identity.end()) {
+    if (options.use_ids && reading.identity >= 0 && bearer != point_of_identity.end()) {
       point = bearer->second;
     } else if (decisions[i]) {
       const auto landmark = point_of_landmark.find(*decisions[i]);
       if (landmark != point_of_landmark.end()) point = landmark->second;
     }
     if (!point) continue;
-    drive.sightings.push_back({reading.frame, *point, *reading.measurement});
-    named.identities.push_back(reading.identity);
+    const bool used = reading.used.value_or(decisions[i].has_value());
+    drive.sightings.push_back({reading.frame, *point, *reading.measurement, used});
+    result.identities.push_back(reading.identity);
+    result.readings.push_back(i);
+    if (options.bearing_only && !options.wait_for_parallax && !seen[*point] &&
+        !(from && from->map.state.find(map[*point].id)))
+      drive.depths.push_back({reading.frame, *point, reading.measurement->p_robot_camera,
+                              options.inverse_depth, options.inverse_depth_sigma});
+    seen[*point] = true;
   }
-  return named;
+  result.places.resize(map.size());
+  std::iota(result.places.begin(), result.places.end(), std::size_t{0});
+  if (!from) return result;
+  result.known.emplace(*from, map, seen);
+  if (!result.known->isUsable()) return std::nullopt;
+  result.places = result.known->kept();
+  keepPoints(drive, result.places);
+  drive.prior = result.known->prior(motions_.front());
+  if (from->localize)
+    std::fill_n(drive.nameless.begin(), drive.prior->points_world.size(), false);
+  return result;
 }
 
 std::optional<DriveRecord::Smoothed> DriveRecord::smoothed(
     const RangeBearingEstimator& estimator, const RangeBearingOptions& options,
-    const std::optional<Resumption>& from) const {
+    const std::optional<Resumption>& from) {
   if (T_world_robot_.empty()) return std::nullopt;
+  followHistory(estimator);
   Smoothed result;
-  result.map = estimator.map();
-  auto [drive, identities] = driveOf(estimator, result.map, options.use_ids);
-  std::vector<std::size_t> places(drive.points_world.size());  // of points in the map
-  std::iota(places.begin(), places.end(), std::size_t{0});
-  std::optional<KnownMap> known;
-  if (from) {
-    std::vector<bool> seen(places.size(), false);
-    for (const Drive::Sighting& sighting : drive.sightings) seen[sighting.point] = true;
-    known.emplace(*from, result.map, seen);
-    if (!known->isUsable()) return std::nullopt;
-    places = known->kept();
-    keepPoints(drive, places);
-    drive.prior = known->prior(motions_.front());
-    if (from->localize)
-      std::fill_n(drive.nameless.begin(), drive.prior->points_world.size(), false);
-  }
-  if (options.estimate_sensor) drive.sensor = {{}, options.sensor_sigmas};
-  const auto before = drive.points_world;
+  result.map = mapSoFar(estimator);
+  auto prepared = this->prepared(estimator, result.map, options, from);
+  if (!prepared) return std::nullopt;
+  auto& [drive, identities, readings, places, known] = *prepared;
   result.how = smooth(drive, options.known_gate_probability);
-  if (!std::isfinite(result.how.cost) || 2 * result.how.unused >= drive.sightings.size())
-    return std::nullopt;
+  if (!isGood(drive, result.how)) return std::nullopt;
 
   if (!drive.sensor)
     result.suspected = suspectedErrors(drive, result.how.cost, options.sensor_sigmas);
@@ -190,13 +204,7 @@ std::optional<DriveRecord::Smoothed> DriveRecord::smoothed(
   std::vector<double> used(drive.points_world.size(), 0.0);
   for (const Drive::Sighting& sighting : drive.sightings)
     if (sighting.used) used[sighting.point] += 1.0;
-  Pose2 T_map_start;
-  if (options.world_with_map && !from) {
-    std::vector<PointPair> anchors;
-    for (std::size_t i = 0; i < used.size(); ++i)
-      anchors.push_back({before[i], drive.points_world[i], used[i]});
-    T_map_start = motionOfMap(anchors).value_or(Pose2{});
-  }
+  const Pose2 T_map_start = asSaid(drive.T_world_robot, options, from);
   for (std::size_t k = 0; k < stamps_s_.size(); ++k)
     result.trajectory.push_back(
         {stamps_s_[k], (T_map_start * drive.T_world_robot[k]).toIsometry3()});

@@ -208,17 +208,7 @@ Eigen::Matrix3d RangeBearingEstimator::poseCovariance() const {
   return J * filter().poseCovariance() * J.transpose();
 }
 LandmarkMap RangeBearingEstimator::map() const {
-  const auto& hypothesis = impl_->hypotheses.front();
-  const Pose2& T = hypothesis.T_world_start;
-  const Eigen::Matrix2d R = turnOf(hypothesis);
-  LandmarkMap map = filter().landmarkMap();
-  for (LandmarkRecord& landmark : map) {
-    landmark.p_world = transform(T, landmark.p_world);
-    landmark.extent_a = transform(T, landmark.extent_a);
-    landmark.extent_b = transform(T, landmark.extent_b);
-    landmark.covariance = (R * landmark.covariance * R.transpose()).eval();
-  }
-  return map;
+  return moved(filter().landmarkMap(), impl_->hypotheses.front().T_world_start);
 }
 SavedMap RangeBearingEstimator::savedMap() const { return impl_->hypotheses.front().savedMap(); }
 std::optional<int> RangeBearingEstimator::identityOf(LandmarkId landmark) const {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "colonnade/base/landmark.hpp"
+#include "colonnade/base/pose2.hpp"
 
 namespace colonnade {
 
@@ -31,5 +32,8 @@ struct LandmarkRecord {
 };
 
 using LandmarkMap = std::vector<LandmarkRecord>;  ///< ordered by id
+
+/// The same map in another world.
+LandmarkMap moved(LandmarkMap map, const Pose2& T_new_old);
 
 }  // namespace colonnade

@@ -24,8 +24,9 @@ struct Drive {
     std::size_t pose = 0;
     std::size_t point = 0;
     Measurement measurement;
-    bool used =
-        true;  ///< set by smooth(); false: too far off to be of this point, or no measurement
+    /// Where to start from; set by smooth(). False: too far off to be of this point, or no
+    /// measurement.
+    bool used = true;
   };
   /// What is known beforehand: of the first pose, and of the first points together.
   struct Prior {
@@ -40,12 +41,21 @@ struct Drive {
     SensorErrors errors;
     SensorErrors sigmas;
   };
+  /// How far a point is from where the camera was at a pose, as known beforehand: without it two
+  /// bearings that hardly differ are met best by a point right before the camera.
+  struct Depth {
+    std::size_t pose = 0;
+    std::size_t point = 0;
+    Eigen::Vector2d p_robot_camera;
+    double inverse_m = 0.0, sigma = 0.0;  ///< 1/m
+  };
   std::vector<Pose2> T_world_robot;  ///< one for each frame
   std::vector<Motion> motions;       ///< as many as poses; the first has no say
   std::vector<Eigen::Vector2d> points_world;
   std::vector<Sighting> sightings;
   std::optional<Sensor> sensor = {};  ///< none: the sensor is right
   std::optional<Prior> prior = {};    ///< none: the first pose is given, the points are anywhere
+  std::vector<Depth> depths = {};
   /// For each point, or empty: whether it may turn out to be one of the others.
   std::vector<bool> nameless = {};
   struct Pair {
@@ -83,6 +93,14 @@ struct Smoothing {
 /// first. Points founded twice become one where Drive::nameless allows it. Throws nothing; a drive
 /// without a sighting is left as it is.
 Smoothing smooth(Drive& drive, double gate_probability);
+
+/// The same of a drive that has gone on since it was smoothed: from where it is, without trials of
+/// other decisions, and without covariance.
+Smoothing smoothOn(Drive& drive, double gate_probability);
+
+/// Of (x, y, phi) of the last pose of a smoothed drive in the axes of the world, given the first
+/// pose or the prior. Nothing where the equations are singular.
+std::optional<Eigen::Matrix3d> lastPoseCovariance(const Drive& drive);
 
 /// What a drive costs once it is smoothed.
 double smoothedCost(Drive drive, double gate_probability);

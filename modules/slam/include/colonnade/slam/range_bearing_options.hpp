@@ -32,6 +32,7 @@ struct RangeBearingOptions {
   bool wait_for_landmark = false;
   bool world_with_map = true;
   bool smooth = true;
+  int smooth_every = 10;
   int hypotheses = 40;
   double outlier_share = 0.03;
   double birth_share = 0.01;
@@ -84,6 +85,9 @@ struct RangeBearingOptions {
     v.flag("smooth", smooth,
            "at the end find the poses and landmarks that suit the whole log best "
            "(trajectory_final.tum, landmarks.csv)");
+    v.integer("smooth_every", smooth_every, {0, 1000000},
+              "frames, and every hundredth part of a long log: find those that suit what was read so "
+              "far best (trajectory.tum); 0: only at the end");
     v.integer(
         "hypotheses", hypotheses, {1, 1000},
         "joint histories kept side by side; three times as many in a map that is left as it is, "

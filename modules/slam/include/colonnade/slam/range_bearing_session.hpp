@@ -31,6 +31,9 @@ class RangeBearingSession {
   const RangeBearingOptions& options() const { return options_; }
   const EkfSlam& filter() const { return estimator_.filter(); }
   const RangeBearingEstimator& estimator() const { return estimator_; }
+  /// The robot as it is known by now, better than the estimator has it where the drive so far is
+  /// smoothed (RangeBearing.smooth_every). In the world of trajectory() and map().
+  const DriveRecord::Now& now() const { return now_; }
   /// What the whole log says, once run() has come to its end; nothing with RangeBearing.smooth off
   /// or where DriveRecord has nothing.
   const std::optional<DriveRecord::Smoothed>& smoothed() const { return smoothed_; }
@@ -74,6 +77,7 @@ class RangeBearingSession {
   RangeBearingEstimator estimator_;
   MotionEstimator motion_;
   DriveRecord record_;
+  DriveRecord::Now now_;
   std::optional<DriveRecord::Smoothed> smoothed_;
   std::vector<int> identities_;  ///< of all readings so far
 };
