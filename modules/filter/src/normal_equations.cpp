@@ -167,26 +167,28 @@ void NormalEquations::addSighting(const Drive& drive, const Drive::Sighting& sig
 }
 
 void NormalEquations::addBlock(Eigen::Index row, Eigen::Index column,
-                               const Eigen::MatrixXd& block) {
+                               const Eigen::Ref<const Eigen::MatrixXd>& block) {
   if (row < 0 || column < 0) return;  // the pose that is held
-  for (Eigen::Index i = 0; i < block.rows(); ++i)
-    for (Eigen::Index k = 0; k < block.cols(); ++k)
+  for (Eigen::Index k = 0; k < block.cols(); ++k)
+    for (Eigen::Index i = row == column ? k : 0; i < block.rows(); ++i)
       entries_.emplace_back(row + i, column + k, block(i, k));
 }
 
-void NormalEquations::addMixed(Eigen::Index a, Eigen::Index b, const Eigen::MatrixXd& block) {
-  addBlock(a, b, block);
-  addBlock(b, a, block.transpose());
+void NormalEquations::addMixed(Eigen::Index a, Eigen::Index b, const Small& block) {
+  if (a > b) return addBlock(a, b, block);
+  const Small turned = block.transpose();
+  addBlock(b, a, turned);
 }
 
-void NormalEquations::addPair(Eigen::Index a, Eigen::Index b, const Eigen::MatrixXd& J_a,
-                              const Eigen::MatrixXd& J_b, const Eigen::MatrixXd& weight,
-                              const Eigen::VectorXd& residual) {
-  addBlock(a, a, J_a.transpose() * weight * J_a);
-  addBlock(b, b, J_b.transpose() * weight * J_b);
-  addMixed(a, b, J_a.transpose() * weight * J_b);
-  if (a >= 0) g_.segment(a, J_a.cols()) += J_a.transpose() * weight * residual;
-  if (b >= 0) g_.segment(b, J_b.cols()) += J_b.transpose() * weight * residual;
+void NormalEquations::addPair(Eigen::Index a, Eigen::Index b, const Small& J_a, const Small& J_b,
+                              const Small& weight, const Small& residual) {
+  const Small A = J_a.transpose().lazyProduct(weight), B = J_b.transpose().lazyProduct(weight);
+  const Small AA = A.lazyProduct(J_a), BB = B.lazyProduct(J_b);
+  addBlock(a, a, AA);
+  addBlock(b, b, BB);
+  addMixed(a, b, A.lazyProduct(J_b));
+  if (a >= 0) g_.segment(a, J_a.cols()) += A.lazyProduct(residual).col(0);
+  if (b >= 0) g_.segment(b, J_b.cols()) += B.lazyProduct(residual).col(0);
 }
 
 Eigen::Matrix3d liftOf(const Pose2& T_world_robot) {

@@ -29,23 +29,28 @@ class NormalEquations {
   }
   Eigen::Index sensorAt() const { return pointAt(points_); }
   std::size_t firstFreePose() const { return static_cast<std::size_t>(held_); }
+  /// Its lower triangle, which is what Eigen's factorisations read.
   Eigen::SparseMatrix<double> H() const;
   const Eigen::VectorXd& g() const { return g_; }
   double cost() const { return cost_; }
 
  private:
+  /// At most as large as what a sensor is off by: kept without allocation.
+  using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor,
+                              SensorErrors::kSize, SensorErrors::kSize>;
+
   void addPrior(const Drive& drive, const Drive::Prior& prior);
   void addMotion(const Drive& drive, std::size_t pose);
   void addDepth(const Drive& drive, const Drive::Depth& depth);
   void addPairOfOne(const Drive& drive, const Drive::Pair& pair);
   void addSensor(const Drive::Sensor& sensor);
   void addSighting(const Drive& drive, const Drive::Sighting& sighting);
-  void addBlock(Eigen::Index row, Eigen::Index column, const Eigen::MatrixXd& block);
-  /// And its transpose, the other way round.
-  void addMixed(Eigen::Index a, Eigen::Index b, const Eigen::MatrixXd& block);
-  void addPair(Eigen::Index a, Eigen::Index b, const Eigen::MatrixXd& J_a,
-               const Eigen::MatrixXd& J_b, const Eigen::MatrixXd& weight,
-               const Eigen::VectorXd& residual);
+  void addBlock(Eigen::Index row, Eigen::Index column,
+                const Eigen::Ref<const Eigen::MatrixXd>& block);
+  /// Of a and b, wherever that is below the diagonal.
+  void addMixed(Eigen::Index a, Eigen::Index b, const Small& block);
+  void addPair(Eigen::Index a, Eigen::Index b, const Small& J_a, const Small& J_b,
+               const Small& weight, const Small& residual);
 
   Eigen::Index held_;  ///< poses that do not move: the first one, or none
   Eigen::Index poses_;
