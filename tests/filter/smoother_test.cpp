@@ -42,6 +42,9 @@ TEST(NormalEquations, GradientIsHalfTheNumericOneOfTheCost) {
     Drive here = simulatedDrive(3, ranged).start;
     if (ranged) here.prior = priorAround(here, 0.2);
     for (auto& sighting : here.sightings) sighting.measurement.p_robot_camera << 0.2, -0.1;
+    if (!ranged)
+      for (std::size_t i = 0; i < here.points_world.size(); ++i)
+        here.depths.push_back({11 * i, i, {0.2, -0.1}, 0.5, 0.25});
     here.sightings[5].measurement.z(0) += 0.4;  // one with Huber's loss, if none had it
     const NormalEquations at(here);
     constexpr double kStep = 1e-6;
@@ -118,6 +121,58 @@ TEST(Smoother, CovariancesOfThePointsAreHonest) {
   // Points of one drive err together: 40 drives, about two free directions each.
   EXPECT_GT(sum / count, 0.7);
   EXPECT_LT(sum / count, 1.35);
+}
+
+TEST(Smoother, CovarianceOfTheLastPoseIsHonest) {
+  constexpr int kDrives = 40;
+  double nees = 0.0;
+  for (unsigned seed = 200; seed < 200 + kDrives; ++seed) {
+    SimulatedDrive drive = simulatedDrive(seed, false);
+    smoothOn(drive.start, 1.0);
+    const auto P = lastPoseCovariance(drive.start);
+    ASSERT_TRUE(P);
+    Eigen::Vector3d error =
+        drive.start.T_world_robot.back().vector() - drive.truth.T_world_robot.back().vector();
+    error(2) = wrapAngle(error(2));
+    nees += error.dot(P->inverse() * error) / 3.0 / kDrives;
+  }
+  // Chi-square of 120 degrees of freedom over 120: 0.76 to 1.27 in 95 of 100 cases.
+  EXPECT_GT(nees, 0.7);
+  EXPECT_LT(nees, 1.35);
+}
+
+/// Two bearings that hardly differ meet anywhere, and cross right before the robot by chance.
+TEST(Smoother, WhatIsKnownOfADepthKeepsAPointAway) {
+  Drive drive;
+  drive.T_world_robot = {{}, {0.1, 0.0, 0.0}};
+  drive.motions = {{{}, Eigen::Matrix3d::Zero()},
+                   {{0.1, 0.0, 0.0}, 1e-6 * Eigen::Matrix3d::Identity()}};
+  drive.points_world = {{3.0, 0.02}};
+  for (const std::size_t pose : {0, 1}) {
+    Measurement m;
+    m.z.resize(1);
+    m.z << (pose == 0 ? 0.01 : 0.04);
+    m.R.setConstant(1, 1, kBearingSigma * kBearingSigma);
+    drive.sightings.push_back({pose, 0, m});
+  }
+  Drive with = drive;
+  with.depths.push_back({0, 0, Eigen::Vector2d::Zero(), 0.35, 0.25});
+  smooth(drive, kGate);
+  smooth(with, kGate);
+  EXPECT_LT(drive.points_world[0].norm(), 0.5);
+  EXPECT_NEAR(with.points_world[0].norm(), 1.0 / 0.35, 1.0);
+}
+
+TEST(Smoother, AWrongReadingStaysOutWhereItStartsOut) {
+  SimulatedDrive drive = simulatedDrive(31);
+  Drive& estimate = drive.start;
+  estimate.sightings[40].measurement.z(0) += 1.0;
+  estimate.sightings[40].used = false;
+  estimate.sightings[50].used = false;  // a right one comes in
+  const Smoothing result = smoothOn(estimate, kGate);
+  EXPECT_EQ(result.unused, 1u);
+  EXPECT_FALSE(estimate.sightings[40].used);
+  EXPECT_TRUE(estimate.sightings[50].used);
 }
 
 TEST(Smoother, LeavesWrongReadingsOut) {

@@ -121,8 +121,7 @@ void NormalEquations::addDepth(const Drive& drive, const Drive::Depth& depth) {
   const Eigen::RowVector2d J_point = -ray.transpose() / (d * d * d);
   Eigen::RowVector3d J_pose;
   J_pose << -J_point, -J_point * Eigen::Vector2d(-camera.y(), camera.x());
-  const Eigen::MatrixXd weight =
-      Eigen::MatrixXd::Constant(1, 1, 1.0 / (depth.sigma * depth.sigma));
+  const Eigen::MatrixXd weight = Eigen::MatrixXd::Constant(1, 1, 1.0 / (depth.sigma * depth.sigma));
   const Eigen::VectorXd residual = Eigen::VectorXd::Constant(1, 1.0 / d - depth.inverse_m);
   cost_ += residual.dot(weight * residual);
   addPair(poseAt(depth.pose), pointAt(depth.point), J_pose, J_point, weight, residual);

@@ -112,19 +112,13 @@ std::optional<double> costOfIdentities(Drive drive, const std::vector<int>& iden
 
 }  // namespace
 
-const DriveRecord::Now& DriveRecord::add(double stamp_s, const RangeBearingScan& scan,
-                                         const RangeBearingReport& report,
-                                         const RangeBearingEstimator& estimator,
-                                         const RangeBearingOptions& options,
-                                         const std::optional<Resumption>& from) {
+void DriveRecord::add(double stamp_s, const RangeBearingScan& scan,
+                      const RangeBearingReport& report, const RangeBearingEstimator& estimator) {
   for (std::size_t i = 0; i < scan.readings.size(); ++i)
     readings_.push_back({stamps_s_.size(), scan.readings[i].id, report.measurements[i], {}});
   stamps_s_.push_back(stamp_s);
   motions_.push_back({report.T_previous_robot, report.motion_covariance});
   moveOn(estimator);
-  if (isDue(options)) smoothSoFar(estimator, options, from);
-  said_.push_back(now_.T_world_robot);
-  return now_;
 }
 
 std::optional<DriveRecord::Prepared> DriveRecord::prepared(
@@ -177,14 +171,13 @@ std::optional<DriveRecord::Prepared> DriveRecord::prepared(
   result.places = result.known->kept();
   keepPoints(drive, result.places);
   drive.prior = result.known->prior(motions_.front());
-  if (from->localize)
-    std::fill_n(drive.nameless.begin(), drive.prior->points_world.size(), false);
+  if (from->localize) std::fill_n(drive.nameless.begin(), drive.prior->points_world.size(), false);
   return result;
 }
 
-std::optional<DriveRecord::Smoothed> DriveRecord::smoothed(
-    const RangeBearingEstimator& estimator, const RangeBearingOptions& options,
-    const std::optional<Resumption>& from) {
+std::optional<DriveRecord::Smoothed> DriveRecord::smoothed(const RangeBearingEstimator& estimator,
+                                                           const RangeBearingOptions& options,
+                                                           const std::optional<Resumption>& from) {
   if (T_world_robot_.empty()) return std::nullopt;
   followHistory(estimator);
   Smoothed result;
@@ -204,7 +197,7 @@ std::optional<DriveRecord::Smoothed> DriveRecord::smoothed(
   std::vector<double> used(drive.points_world.size(), 0.0);
   for (const Drive::Sighting& sighting : drive.sightings)
     if (sighting.used) used[sighting.point] += 1.0;
-  const Pose2 T_map_start = asSaid(drive.T_world_robot, options, from);
+  const Pose2 T_map_start = options.world_with_map && !from ? asSaid(drive.T_world_robot) : Pose2{};
   for (std::size_t k = 0; k < stamps_s_.size(); ++k)
     result.trajectory.push_back(
         {stamps_s_[k], (T_map_start * drive.T_world_robot[k]).toIsometry3()});

@@ -12,8 +12,6 @@ namespace {
 /// Drives that are long are smoothed when they have grown by this share, so that the time for each
 /// frame does not grow with them.
 constexpr double kGrowth = 0.01;
-/// Points known beforehand all hang together: with more of them one step takes too long for a frame.
-constexpr std::size_t kMostKnown = 50;
 /// Poses agree where the robot and a point so far ahead of it do.
 constexpr double kAhead_m = 1.0;
 
@@ -22,16 +20,17 @@ constexpr double kAhead_m = 1.0;
 /// As the estimator has it, from where the robot was known to be before.
 void DriveRecord::moveOn(const RangeBearingEstimator& estimator) {
   const Pose2 T_filter_robot = estimator.pose();
+  if (!T_world_robot_.empty()) said_.push_back(now_.T_world_robot);
   if (smoothed_frames_ == 0) {
     now_ = {T_filter_robot, estimator.poseCovariance(), estimator.worldOrigin(), {}};
   } else {
     Eigen::Matrix3d J_before, J_motion;
     now_.T_world_robot = compose(now_.T_world_robot, T_filter_robot_.inverse() * T_filter_robot,
                                  &J_before, &J_motion);
-    now_.covariance =
-        (J_before * now_.covariance * J_before.transpose() +
-         J_motion * motions_.back().covariance * J_motion.transpose()).eval();
-    if (world_is_free_) now_.T_world_filter = now_.T_world_robot * T_filter_robot.inverse();
+    now_.covariance = (J_before * now_.covariance * J_before.transpose() +
+                       J_motion * motions_.back().covariance * J_motion.transpose())
+                          .eval();
+    now_.T_world_filter = now_.T_world_robot * T_filter_robot.inverse();
   }
   T_filter_robot_ = T_filter_robot;
   if (T_world_robot_.empty()) T_origin_first_ = now_.T_world_origin.inverse() * T_filter_robot;
@@ -62,22 +61,20 @@ LandmarkMap DriveRecord::mapSoFar(const RangeBearingEstimator& estimator) const 
   return map;
 }
 
-void DriveRecord::smoothSoFar(const RangeBearingEstimator& estimator,
-                              const RangeBearingOptions& options,
-                              const std::optional<Resumption>& from) {
+void DriveRecord::catchUp(const RangeBearingEstimator& estimator,
+                          const RangeBearingOptions& options) {
+  if (!isDue(options)) return;
   tried_frames_ = stamps_s_.size();
   followHistory(estimator);
   const LandmarkMap map = mapSoFar(estimator);
-  auto prepared = this->prepared(estimator, map, options, from);
-  if (!prepared) return;
+  auto prepared = this->prepared(estimator, map, options, std::nullopt);
   auto& [drive, identities, readings, places, known] = *prepared;
-  if (drive.prior && drive.prior->points_world.size() > kMostKnown) return;
   const Smoothing how = smoothOn(drive, options.known_gate_probability);
   if (how.steps == 0 || !isGood(drive, how)) return;
   const auto covariance = lastPoseCovariance(drive);
   if (!covariance) return;
 
-  const Pose2 T_world_drive = asSaid(drive.T_world_robot, options, from);
+  const Pose2 T_world_drive = options.world_with_map ? asSaid(drive.T_world_robot) : Pose2{};
   for (std::size_t k = 0; k < T_world_robot_.size(); ++k)
     T_world_robot_[k] = T_world_drive * drive.T_world_robot[k];
   places_.clear();
@@ -91,16 +88,12 @@ void DriveRecord::smoothSoFar(const RangeBearingEstimator& estimator,
   R.topLeftCorner<2, 2>() = T_world_drive.rotation();
   now_.T_world_robot = T_world_robot_.back();
   now_.covariance = R * *covariance * R.transpose();
-  world_is_free_ = !from;
-  if (from) return;
   now_.T_world_filter = now_.T_world_robot * T_filter_robot_.inverse();
   now_.T_world_origin = T_world_robot_.front() * T_origin_first_.inverse();
 }
 
-Pose2 DriveRecord::asSaid(const std::vector<Pose2>& T_drive_robot,
-                          const RangeBearingOptions& options,
-                          const std::optional<Resumption>& from) const {
-  if (!options.world_with_map || from || said_.empty()) return {};
+Pose2 DriveRecord::asSaid(const std::vector<Pose2>& T_drive_robot) const {
+  if (said_.empty()) return {};
   std::vector<PointPair> pairs;
   for (std::size_t k = 0; k < said_.size(); ++k) {
     pairs.push_back({said_[k].translation(), T_drive_robot[k].translation()});

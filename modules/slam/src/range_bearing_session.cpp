@@ -48,8 +48,9 @@ void RangeBearingSession::run(FrameSource& source, const Observer& observer) {
 
 RangeBearingReport RangeBearingSession::take(const Taken& frame) {
   RangeBearingReport report = estimator_.step(frame.stamp_s, frame.motion, frame.scan);
-  now_ = record_.add(frame.stamp_s, frame.scan, report, estimator_, options_, from_);
-  trajectory_.push_back({frame.stamp_s, now_.T_world_robot.toIsometry3()});
+  record_.add(frame.stamp_s, frame.scan, report, estimator_);
+  if (!from_) record_.catchUp(estimator_, options_);
+  trajectory_.push_back({frame.stamp_s, now().T_world_robot.toIsometry3()});
   return report;
 }
 
@@ -86,7 +87,7 @@ void RangeBearingSession::lookForPlace(const Taken& frame, const RangeBearingRep
 }
 
 LandmarkMap RangeBearingSession::map() const {
-  LandmarkMap map = smoothed_ ? smoothed_->map : moved(estimator_.map(), now_.T_world_filter);
+  LandmarkMap map = smoothed_ ? smoothed_->map : moved(estimator_.map(), now().T_world_filter);
   LandmarkMap named = map;
   for (LandmarkRecord& landmark : named) {
     const auto identity = estimator_.identityOf(landmark.id);
@@ -99,8 +100,8 @@ LandmarkMap RangeBearingSession::map() const {
 
 SavedMap RangeBearingSession::savedMap() const {
   SavedMap map = estimator_.savedMap();
-  moveWorld(map.state, now_.T_world_filter);
-  map.T_world_start = now_.T_world_filter * map.T_world_start;
+  moveWorld(map.state, now().T_world_filter);
+  map.T_world_start = now().T_world_filter * map.T_world_start;
   if (!smoothed_) return map;
   for (const auto& [landmark, into] : smoothed_->merged) removeBlock(map.state, landmark);
   for (const LandmarkRecord& landmark : smoothed_->map) {

@@ -23,18 +23,18 @@ class DriveRecord {
     Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of (x, y, phi)
     /// StampedCovariance::T_world_origin.
     Pose2 T_world_origin;
-    /// From the estimator's world; the same one in a loaded map and until something is smoothed.
+    /// From the estimator's world; the same one until something is smoothed.
     Pose2 T_world_filter;
   };
 
-  /// One frame, after the estimator's step: everything so far is smoothed with it, if it is time
-  /// (RangeBearing.smooth_every), and otherwise the robot moves on as the estimator has it. Nobody
-  /// knows where in the world a map without a map before it lies: with RangeBearing.world_with_map
-  /// that is where the poses said at their moment, this one included, suit best what is known of
-  /// them now; without, where the log starts. from: the map the estimator goes on from.
-  const Now& add(double stamp_s, const RangeBearingScan& scan, const RangeBearingReport& report,
-                 const RangeBearingEstimator& estimator, const RangeBearingOptions& options,
-                 const std::optional<Resumption>& from);
+  /// One frame, after the estimator's step: the robot moved on as the estimator has it.
+  void add(double stamp_s, const RangeBearingScan& scan, const RangeBearingReport& report,
+           const RangeBearingEstimator& estimator);
+  /// Smooths what there is so far where it is time to (RangeBearing.smooth_every). Nobody knows
+  /// where in the world a new map lies: with RangeBearing.world_with_map that is where the poses
+  /// said at their moment suit best what is known of them now; without, where the log starts. Not
+  /// for a loaded map, which holds the world and of which the filter knows how sure it is.
+  void catchUp(const RangeBearingEstimator& estimator, const RangeBearingOptions& options);
   const Now& now() const { return now_; }
 
   struct Smoothed {
@@ -57,12 +57,11 @@ class DriveRecord {
   /// At the end: the drive past the landmarks the estimator knows, with its last word on which
   /// reading is of which; readings whose identity is believed are of its bearer. The map is the
   /// estimator's with places, extents and, up to 500 landmarks, covariances as smoothed; a landmark
-  /// none of whose readings was used stays. The world lies as for Now. Landmarks without identity that were founded
-  /// twice become one. Nothing when there is no reading of a landmark,
-  /// or when smoothing failed: not finite, or half of the readings left out.
-  /// from: the map the estimator went on from. Start and map then count as far as they are known,
-  /// and a map that is left as it is stays; nothing where the drive saw more than 500 of its
-  /// landmarks.
+  /// none of whose readings was used stays. The world lies as for Now. Landmarks without identity
+  /// that were founded twice become one. Nothing when there is no reading of a landmark, or when
+  /// smoothing failed: not finite, or half of the readings left out. from: the map the estimator
+  /// went on from. Start and map then count as far as they are known, and a map that is left as it
+  /// is stays; nothing where the drive saw more than 500 of its landmarks.
   std::optional<Smoothed> smoothed(const RangeBearingEstimator& estimator,
                                    const RangeBearingOptions& options,
                                    const std::optional<Resumption>& from = std::nullopt);
@@ -81,27 +80,23 @@ class DriveRecord {
                                    const std::optional<Resumption>& from) const;
   void moveOn(const RangeBearingEstimator& estimator);
   bool isDue(const RangeBearingOptions& options) const;
-  void smoothSoFar(const RangeBearingEstimator& estimator, const RangeBearingOptions& options,
-                   const std::optional<Resumption>& from);
   /// Numbers of landmarks mean others in another history.
   void followHistory(const RangeBearingEstimator& estimator);
   /// With places as smoothed last.
   LandmarkMap mapSoFar(const RangeBearingEstimator& estimator) const;
   /// Where the world of such poses lies in that of the poses that were said.
-  Pose2 asSaid(const std::vector<Pose2>& T_drive_robot, const RangeBearingOptions& options,
-               const std::optional<Resumption>& from) const;
+  Pose2 asSaid(const std::vector<Pose2>& T_drive_robot) const;
 
   std::vector<double> stamps_s_;
   std::vector<Drive::Motion> motions_;
   std::vector<Reading> readings_;
-  std::vector<Pose2> said_;           ///< at their moment
-  std::vector<Pose2> T_world_robot_;  ///< as known by now
-  Pose2 T_origin_first_;              ///< the first of them in the world as it was then
-  Pose2 T_filter_robot_;              ///< the last one, as the estimator has it
-  std::map<LandmarkId, Eigen::Vector2d> places_;    ///< as smoothed last
+  std::vector<Pose2> said_;                       ///< at their moment, but the last one
+  std::vector<Pose2> T_world_robot_;              ///< as known by now
+  Pose2 T_origin_first_;                          ///< the first of them in the world as it was then
+  Pose2 T_filter_robot_;                          ///< the last one, as the estimator has it
+  std::map<LandmarkId, Eigen::Vector2d> places_;  ///< as smoothed last
   std::vector<std::optional<LandmarkId>> decided_;  ///< when the drive was smoothed last
   std::size_t tried_frames_ = 0, smoothed_frames_ = 0;
-  bool world_is_free_ = false;  ///< no loaded map holds it
   Now now_;
 };
 

@@ -32,8 +32,8 @@ class RangeBearingSession {
   const EkfSlam& filter() const { return estimator_.filter(); }
   const RangeBearingEstimator& estimator() const { return estimator_; }
   /// The robot as it is known by now, better than the estimator has it where the drive so far is
-  /// smoothed (RangeBearing.smooth_every). In the world of trajectory() and map().
-  const DriveRecord::Now& now() const { return now_; }
+  /// smoothed (RangeBearing.smooth_every). In the world of trajectory(), map() and savedMap().
+  const DriveRecord::Now& now() const { return record_.now(); }
   /// What the whole log says, once run() has come to its end; nothing with RangeBearing.smooth off
   /// or where DriveRecord has nothing.
   const std::optional<DriveRecord::Smoothed>& smoothed() const { return smoothed_; }
@@ -77,7 +77,6 @@ class RangeBearingSession {
   RangeBearingEstimator estimator_;
   MotionEstimator motion_;
   DriveRecord record_;
-  DriveRecord::Now now_;
   std::optional<DriveRecord::Smoothed> smoothed_;
   std::vector<int> identities_;  ///< of all readings so far
 };
