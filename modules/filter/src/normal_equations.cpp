@@ -4,6 +4,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -23,6 +24,8 @@ constexpr double kStandingSigma = 1e-5;  ///< m and rad
 constexpr double kLooseSigma_m = 100.0;
 /// Points that are one thing may be this far apart.
 constexpr double kOneSigma_m = 1e-4;
+/// What is right at the camera has no direction.
+constexpr double kNearest_m = 1e-3;
 /// Holds an error of the sensor that is known not to be there.
 constexpr double kKnownSigma = 1e-6;
 
@@ -117,7 +120,7 @@ void NormalEquations::addDepth(const Drive& drive, const Drive::Depth& depth) {
   const Pose2& T_world_robot = drive.T_world_robot[depth.pose];
   const Eigen::Vector2d camera = transform(T_world_robot, depth.p_robot_camera);
   const Eigen::Vector2d ray = drive.points_world[depth.point] - camera;
-  const double d = ray.norm();
+  const double d = std::max(ray.norm(), kNearest_m);
   const Eigen::RowVector2d J_point = -ray.transpose() / (d * d * d);
   Eigen::RowVector3d J_pose;
   J_pose << -J_point, -J_point * Eigen::Vector2d(-camera.y(), camera.x());

@@ -71,7 +71,7 @@ void descend(Drive& drive, Smoothing& result) {
     move(drive, here, factor.solve(-here.g()));
     NormalEquations there(drive);
     const double gained = here.cost() - there.cost();
-    if (!(gained >= 0.0)) {
+    if (!(gained >= -kNothing)) {  // less is rounding
       former.putBack(drive);
       damping *= 10.0;
       continue;

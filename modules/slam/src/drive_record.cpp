@@ -118,7 +118,7 @@ void DriveRecord::add(double stamp_s, const RangeBearingScan& scan,
     readings_.push_back({stamps_s_.size(), scan.readings[i].id, report.measurements[i], {}});
   stamps_s_.push_back(stamp_s);
   motions_.push_back({report.T_previous_robot, report.motion_covariance});
-  moveOn(estimator);
+  follow(estimator);
 }
 
 std::optional<DriveRecord::Prepared> DriveRecord::prepared(
@@ -128,7 +128,8 @@ std::optional<DriveRecord::Prepared> DriveRecord::prepared(
   Drive& drive = result.drive;
   drive.T_world_robot = T_world_robot_;
   drive.motions = motions_;
-  if (options.estimate_sensor) drive.sensor = {{}, options.sensor_sigmas};
+  if (options.estimate_sensor)
+    drive.sensor = {sensor_.value_or(SensorErrors{}), options.sensor_sigmas};
   std::map<LandmarkId, std::size_t> point_of_landmark;
   std::map<int, std::size_t> point_of_identity;
   for (const LandmarkRecord& landmark : map) {
@@ -181,7 +182,7 @@ std::optional<DriveRecord::Smoothed> DriveRecord::smoothed(const RangeBearingEst
   if (T_world_robot_.empty()) return std::nullopt;
   followHistory(estimator);
   Smoothed result;
-  result.map = mapSoFar(estimator);
+  result.map = from ? estimator.map() : mapSoFar(estimator);
   auto prepared = this->prepared(estimator, result.map, options, from);
   if (!prepared) return std::nullopt;
   auto& [drive, identities, readings, places, known] = *prepared;
@@ -198,6 +199,7 @@ std::optional<DriveRecord::Smoothed> DriveRecord::smoothed(const RangeBearingEst
   for (const Drive::Sighting& sighting : drive.sightings)
     if (sighting.used) used[sighting.point] += 1.0;
   const Pose2 T_map_start = options.world_with_map && !from ? asSaid(drive.T_world_robot) : Pose2{};
+  result.T_world_filter = T_map_start * now_.T_world_filter;
   for (std::size_t k = 0; k < stamps_s_.size(); ++k)
     result.trajectory.push_back(
         {stamps_s_[k], (T_map_start * drive.T_world_robot[k]).toIsometry3()});

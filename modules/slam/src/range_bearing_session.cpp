@@ -48,7 +48,10 @@ void RangeBearingSession::run(FrameSource& source, const Observer& observer) {
 
 RangeBearingReport RangeBearingSession::take(const Taken& frame) {
   RangeBearingReport report = estimator_.step(frame.stamp_s, frame.motion, frame.scan);
-  record_.add(frame.stamp_s, frame.scan, report, estimator_);
+  if (options_.smooth)
+    record_.add(frame.stamp_s, frame.scan, report, estimator_);
+  else
+    record_.follow(estimator_);
   if (!from_) record_.catchUp(estimator_, options_);
   trajectory_.push_back({frame.stamp_s, now().T_world_robot.toIsometry3()});
   return report;
@@ -100,8 +103,9 @@ LandmarkMap RangeBearingSession::map() const {
 
 SavedMap RangeBearingSession::savedMap() const {
   SavedMap map = estimator_.savedMap();
-  moveWorld(map.state, now().T_world_filter);
-  map.T_world_start = now().T_world_filter * map.T_world_start;
+  const Pose2 T = smoothed_ ? smoothed_->T_world_filter : now().T_world_filter;
+  moveWorld(map.state, T);
+  map.T_world_start = T * map.T_world_start;
   if (!smoothed_) return map;
   for (const auto& [landmark, into] : smoothed_->merged) removeBlock(map.state, landmark);
   for (const LandmarkRecord& landmark : smoothed_->map) {

@@ -36,6 +36,8 @@ class DriveRecord {
   /// for a loaded map, which holds the world and of which the filter knows how sure it is.
   void catchUp(const RangeBearingEstimator& estimator, const RangeBearingOptions& options);
   const Now& now() const { return now_; }
+  /// Moves the robot on as the estimator has it; part of add(), alone where nothing is recorded.
+  void follow(const RangeBearingEstimator& estimator);
 
   struct Smoothed {
     Trajectory trajectory;
@@ -44,6 +46,7 @@ class DriveRecord {
     Eigen::MatrixXd covariance;
     /// Landmarks founded twice that are no more in the map, and those of the map they are.
     std::map<LandmarkId, LandmarkId> merged;
+    Pose2 T_world_filter;                  ///< from the estimator's world
     std::optional<SensorEstimate> sensor;  ///< where its errors are estimated
     /// Where they are not: what would make the readings fit far better, to first order.
     std::optional<SensorEstimate> suspected;
@@ -78,7 +81,7 @@ class DriveRecord {
   std::optional<Prepared> prepared(const RangeBearingEstimator& estimator, const LandmarkMap& map,
                                    const RangeBearingOptions& options,
                                    const std::optional<Resumption>& from) const;
-  void moveOn(const RangeBearingEstimator& estimator);
+  void followFilter(const RangeBearingEstimator& estimator);
   bool isDue(const RangeBearingOptions& options) const;
   /// Numbers of landmarks mean others in another history.
   void followHistory(const RangeBearingEstimator& estimator);
@@ -96,7 +99,10 @@ class DriveRecord {
   Pose2 T_filter_robot_;                          ///< the last one, as the estimator has it
   std::map<LandmarkId, Eigen::Vector2d> places_;  ///< as smoothed last
   std::vector<std::optional<LandmarkId>> decided_;  ///< when the drive was smoothed last
-  std::size_t tried_frames_ = 0, smoothed_frames_ = 0;
+  std::optional<SensorErrors> sensor_;              ///< as smoothed last
+  std::size_t tried_frames_ = 0;
+  bool is_smoothed_ = false;  ///< the pose is that of the drive as smoothed last, moved on
+  double share_ = 1.0;  ///< of the filter's covariance the smoothed pose had then, if it counts
   Now now_;
 };
 

@@ -16,7 +16,8 @@
 namespace colonnade {
 
 /// The main loop for logs without images: frames of landmark readings in, an estimate out; shaped
-/// like Session. At the end the whole drive is smoothed (RangeBearing.smooth).
+/// like Session. The drive is smoothed while it goes on (RangeBearing.smooth_every) and at the end
+/// (RangeBearing.smooth).
 class RangeBearingSession {
  public:
   /// from: a map to go on from. Throws Error (kUsage) for options that contradict each other and
