@@ -92,7 +92,11 @@ void DriveRecord::catchUp(const RangeBearingEstimator& estimator,
   const auto covariance =
       how.steps > 0 && isGood(drive, how) ? lastPoseCovariance(drive) : std::nullopt;
   is_smoothed_ = covariance.has_value();
-  if (!covariance) return followFilter(estimator);
+  if (!covariance) {
+    followFilter(estimator);
+    T_world_robot_.back() = now_.T_world_robot;
+    return;
+  }
 
   const Pose2 T_world_drive = options.world_with_map ? asSaid(drive.T_world_robot) : Pose2{};
   for (std::size_t k = 0; k < T_world_robot_.size(); ++k)

@@ -85,10 +85,9 @@ struct RangeBearingOptions {
     v.flag("smooth", smooth,
            "at the end find the poses and landmarks that suit the whole log best "
            "(trajectory_final.tum, landmarks.csv)");
-    v.integer(
-        "smooth_every", smooth_every, {0, 1000000},
-        "frames, and every hundredth part of a long log: find those that suit what was read so "
-        "far best (trajectory.tum); 0: only at the end");
+    v.integer("smooth_every", smooth_every, {0, 1000000},
+              "frames, and more in long logs: find those that suit what was read so far best "
+              "(trajectory.tum); 0: only at the end");
     v.integer(
         "hypotheses", hypotheses, {1, 1000},
         "joint histories kept side by side; three times as many in a map that is left as it is, "
