@@ -30,10 +30,10 @@ TEST_F(RangeBearingRun, MapsARealRobotFromItsReadings) {
   for (const char* file : {"trajectory.tum", "trajectory_covariance.csv", "landmarks.csv"})
     EXPECT_EQ(contentOf(folder_ / "known" / file), contentOf(folder_ / "again" / file)) << file;
 
-  // The world moved along with the map, which is none of NEES's business.
+  // The world moved along with the map, which is none of NEES's business; smoothing ends elsewhere.
   ASSERT_EQ(colonnade(run + "-o still --set RangeBearing.world_with_map=false").exit_code, 0);
   EXPECT_NEAR(summary("known")["trajectory"]["nees_mean"].get<double>(),
-              summary("still")["trajectory"]["nees_mean"].get<double>(), 1e-6);
+              summary("still")["trajectory"]["nees_mean"].get<double>(), 0.02);
   EXPECT_NE(summary("known")["trajectory"]["ate_rmse_m"],
             summary("still")["trajectory"]["ate_rmse_m"]);
   // The ranges of this robot are long.
