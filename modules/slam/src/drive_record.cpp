@@ -106,6 +106,7 @@ std::optional<double> costOfIdentities(Drive drive, const std::vector<int>& iden
   for (std::size_t i = 0; i < identities.size(); ++i)
     if (const auto bearer = bearers.find(identities[i]); bearer != bearers.end())
       drive.sightings[i].point = static_cast<std::size_t>(number(bearer->second));
+  for (Drive::Sighting& sighting : drive.sightings) sighting.used = true;
   drive.nameless.clear();
   return smoothedCost(std::move(drive), gate_probability);
 }
