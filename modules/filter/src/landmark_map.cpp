@@ -72,6 +72,16 @@ LandmarkMap moved(LandmarkMap map, const Pose2& T_new_old) {
   return map;
 }
 
+std::optional<Eigen::Vector2d> EkfSlam::placeOf(LandmarkId landmark) const {
+  if (const Block* resting = resting_.find(landmark)) return resting_.valueThen(*resting).head<2>();
+  const Block* block = state_.find(landmark);
+  if (!block || !block->isLandmark() || block->evidence.hypothesis ||
+      !isSettledEnough(state_, *block))
+    return std::nullopt;
+  const BlockVector y = state_.values(*block);
+  return block->block_kind == BlockKind::kInverseDepth ? pointOf(y) : y.head<2>();
+}
+
 LandmarkMap EkfSlam::landmarkMap() const {
   if (!resting_.empty()) return EkfSlam(options_, fullState()).landmarkMap();
   LandmarkMap map;

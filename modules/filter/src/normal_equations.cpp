@@ -2,61 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "normal_equations.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 #include "colonnade/base/angle.hpp"
-#include "colonnade/filter/gate.hpp"
 
 namespace colonnade {
 namespace {
 
-constexpr double kHuberProbability = 0.99;
 /// Entries of H from each motion, sighting and point.
 constexpr std::size_t kMotionEntries = 36, kSightingEntries = 25, kPointEntries = 2,
                       kSensorEntries = 75;
-/// A standing robot states no noise at all; its poses are tied to within this.
-constexpr double kStandingSigma = 1e-5;  ///< m and rad
-/// Keeps a point that was only seen along one ray where it is.
-constexpr double kLooseSigma_m = 100.0;
 /// Points that are one thing may be this far apart.
 constexpr double kOneSigma_m = 1e-4;
-/// What is right at the camera has no direction.
-constexpr double kNearest_m = 1e-3;
-/// Holds an error of the sensor that is known not to be there.
-constexpr double kKnownSigma = 1e-6;
-
-/// J_sensor: the derivative in the errors of the sensor, if the drive has one.
-PredictedMeasurement predicted(const Drive& drive, const Drive::Sighting& sighting,
-                               SensorJacobian* J_sensor = nullptr) {
-  PredictedMeasurement expected =
-      predictMeasurement(drive.T_world_robot[sighting.pose], BlockKind::kPoint,
-                         drive.points_world[sighting.point], sighting.measurement);
-  if (!drive.sensor) return expected;
-  const SensorJacobian J = readWith(drive.sensor->errors, sighting.measurement, expected);
-  if (J_sensor) *J_sensor = J;
-  return expected;
-}
-
-Eigen::Vector3d motionResidual(const Drive& drive, std::size_t pose) {
-  const Pose2 moved = drive.T_world_robot[pose - 1].inverse() * drive.T_world_robot[pose];
-  Eigen::Vector3d residual = moved.vector() - drive.motions[pose].T_previous_robot.vector();
-  residual(2) = wrapAngle(residual(2));
-  return residual;
-}
-
-Eigen::Matrix3d informationOf(const Drive::Motion& motion) {
-  const Eigen::Matrix3d standing = kStandingSigma * kStandingSigma * Eigen::Matrix3d::Identity();
-  return (motion.covariance + standing).inverse();
-}
-
-/// Distances beyond this one count linearly.
-double huberBound(Eigen::Index size) {
-  return std::sqrt(chiSquareQuantile(kHuberProbability, static_cast<int>(size)));
-}
 
 }  // namespace
 
@@ -106,28 +61,20 @@ void NormalEquations::addPrior(const Drive& drive, const Drive::Prior& prior) {
 }
 
 void NormalEquations::addMotion(const Drive& drive, std::size_t pose) {
-  const Drive::Motion& motion = drive.motions[pose];
-  const Eigen::Vector3d residual = motionResidual(drive, pose);
-  Eigen::Matrix3d J = Eigen::Matrix3d::Identity();
-  J.topLeftCorner<2, 2>() = drive.T_world_robot[pose - 1].rotation().transpose();
-  J = (J * liftOf(drive.T_world_robot[pose])).eval();
-  const Eigen::Matrix3d weight = informationOf(motion);
-  cost_ += residual.dot(weight * residual);
-  addPair(poseAt(pose - 1), poseAt(pose), -J, J, weight, residual);
+  const MotionTerm term = motionTerm(drive, pose);
+  // Of xi of the pose before it is the same but for the sign.
+  const Eigen::Matrix3d J = term.J_after * liftOf(drive.T_world_robot[pose]);
+  cost_ += term.residual.dot(term.information * term.residual);
+  addPair(poseAt(pose - 1), poseAt(pose), -J, J, term.information, term.residual);
 }
 
 void NormalEquations::addDepth(const Drive& drive, const Drive::Depth& depth) {
-  const Pose2& T_world_robot = drive.T_world_robot[depth.pose];
-  const Eigen::Vector2d camera = transform(T_world_robot, depth.p_robot_camera);
-  const Eigen::Vector2d ray = drive.points_world[depth.point] - camera;
-  const double d = std::max(ray.norm(), kNearest_m);
-  const Eigen::RowVector2d J_point = -ray.transpose() / (d * d * d);
-  Eigen::RowVector3d J_pose;
-  J_pose << -J_point, -J_point * Eigen::Vector2d(-camera.y(), camera.x());
-  const Eigen::MatrixXd weight = Eigen::MatrixXd::Constant(1, 1, 1.0 / (depth.sigma * depth.sigma));
-  const Eigen::VectorXd residual = Eigen::VectorXd::Constant(1, 1.0 / d - depth.inverse_m);
+  const DepthTerm term = depthTerm(drive, depth);
+  const Eigen::RowVector3d J_pose = term.J_pose * liftOf(drive.T_world_robot[depth.pose]);
+  const Eigen::MatrixXd weight = Eigen::MatrixXd::Constant(1, 1, term.information);
+  const Eigen::VectorXd residual = Eigen::VectorXd::Constant(1, term.residual);
   cost_ += residual.dot(weight * residual);
-  addPair(poseAt(depth.pose), pointAt(depth.point), J_pose, J_point, weight, residual);
+  addPair(poseAt(depth.pose), pointAt(depth.point), J_pose, term.J_point, weight, residual);
 }
 
 void NormalEquations::addPairOfOne(const Drive& drive, const Drive::Pair& pair) {
@@ -148,24 +95,19 @@ void NormalEquations::addSensor(const Drive::Sensor& sensor) {
 }
 
 void NormalEquations::addSighting(const Drive& drive, const Drive::Sighting& sighting) {
-  SensorJacobian J_sensor;
-  const auto expected = predicted(drive, sighting, &J_sensor);
-  const Eigen::VectorXd residual = -innovationOf(sighting.measurement, expected.z);
-  const Eigen::MatrixXd information = noiseOf(sighting.measurement).inverse();
-  const double distance = std::sqrt(residual.dot(information * residual));
-  const double bound = huberBound(residual.size());
-  const bool far = distance > bound;
-  cost_ += huberLoss(distance * distance, residual.size());
-  const Eigen::MatrixXd weight = (far ? bound / distance : 1.0) * information;
-  const Eigen::MatrixXd J_pose = expected.H_robot * liftOf(drive.T_world_robot[sighting.pose]);
-  addPair(poseAt(sighting.pose), pointAt(sighting.point), J_pose, expected.H_block, weight,
-          residual);
+  const SightingTerm term = sightingTerm(drive, sighting);
+  const double distance2 = term.residual.dot(term.information * term.residual);
+  cost_ += huberLoss(distance2, term.residual.size());
+  const Eigen::MatrixXd weight = huberWeight(distance2, term.residual.size()) * term.information;
+  const Eigen::MatrixXd J_pose = term.J_pose * liftOf(drive.T_world_robot[sighting.pose]);
+  addPair(poseAt(sighting.pose), pointAt(sighting.point), J_pose, term.J_point, weight,
+          term.residual);
   if (!drive.sensor) return;
-  const Eigen::MatrixXd weighted = weight * J_sensor;
-  addBlock(sensorAt(), sensorAt(), J_sensor.transpose() * weighted);
+  const Eigen::MatrixXd weighted = weight * term.J_sensor;
+  addBlock(sensorAt(), sensorAt(), term.J_sensor.transpose() * weighted);
   addMixed(poseAt(sighting.pose), sensorAt(), J_pose.transpose() * weighted);
-  addMixed(pointAt(sighting.point), sensorAt(), expected.H_block.transpose() * weighted);
-  g_.segment<SensorErrors::kSize>(sensorAt()) += weighted.transpose() * residual;
+  addMixed(pointAt(sighting.point), sensorAt(), term.J_point.transpose() * weighted);
+  g_.segment<SensorErrors::kSize>(sensorAt()) += weighted.transpose() * term.residual;
 }
 
 void NormalEquations::addBlock(Eigen::Index row, Eigen::Index column,
@@ -207,23 +149,6 @@ void move(Drive& drive, const NormalEquations& at, const Eigen::VectorXd& dx) {
   if (drive.sensor)
     drive.sensor->errors = SensorErrors::of(drive.sensor->errors.vector() +
                                             dx.segment<SensorErrors::kSize>(at.sensorAt()));
-}
-
-double huberLoss(double distance2, Eigen::Index size) {
-  const double bound = huberBound(size);
-  return distance2 > bound * bound ? bound * (2.0 * std::sqrt(distance2) - bound) : distance2;
-}
-
-double motionDistance2(const Drive& drive, std::size_t pose) {
-  const Eigen::Vector3d residual = motionResidual(drive, pose);
-  return residual.dot(informationOf(drive.motions[pose]) * residual);
-}
-
-double distance2(const Drive& drive, const Drive::Sighting& sighting) {
-  const Eigen::LLT<Eigen::MatrixXd> R(noiseOf(sighting.measurement));
-  const Eigen::VectorXd nu = innovationOf(sighting.measurement, predicted(drive, sighting).z);
-  const double distance2 = R.info() == Eigen::Success ? nu.dot(R.solve(nu)) : HUGE_VAL;
-  return std::isfinite(distance2) ? distance2 : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace colonnade

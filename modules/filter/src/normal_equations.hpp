@@ -8,6 +8,7 @@
 
 #include "colonnade/filter/measurement_models.hpp"
 #include "colonnade/filter/smoother.hpp"
+#include "drive_terms.hpp"
 
 namespace colonnade {
 
@@ -65,13 +66,5 @@ Eigen::Matrix3d liftOf(const Pose2& T_world_robot);
 
 /// The drive's estimate moved by dx.
 void move(Drive& drive, const NormalEquations& at, const Eigen::VectorXd& dx);
-
-/// What a squared Mahalanobis distance of a sighting with so many numbers adds to the cost.
-double huberLoss(double distance2, Eigen::Index size);
-
-/// Squared Mahalanobis distances of the motion up to a pose (not the first) and of a sighting;
-/// infinite for a sighting that is not finite or whose R is no covariance.
-double motionDistance2(const Drive& drive, std::size_t pose);
-double distance2(const Drive& drive, const Drive::Sighting& sighting);
 
 }  // namespace colonnade

@@ -1,21 +1,24 @@
 // SPDX-FileCopyrightText: 2026 The Colonnade authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "colonnade/slam/drive_so_far.hpp"
+
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "colonnade/base/rigid_fit.hpp"
-#include "prepared_drive.hpp"
 
 namespace colonnade {
 namespace {
 
-/// One frame pays for so many poses and readings: long drives are smoothed less often, so that the
-/// time for a frame does not grow with them in the mean.
-constexpr double kPaidByFrame = 250.0;
 /// How much larger variances are than the filter says between two times, at most.
 constexpr double kDoubt = 4.0;
 /// Poses agree where the robot and a point so far ahead of it do.
 constexpr double kAhead_m = 1.0;
+/// So many poses said say well enough where the world is.
+constexpr std::size_t kWitnesses = 1000;
+/// What was taken back may be so much more than what counts before all is begun anew.
+constexpr std::size_t kTakenBack = 2000;
 
 /// In axes turned by T.
 Eigen::Matrix3d turned(const Eigen::Matrix3d& covariance, const Pose2& T) {
@@ -26,15 +29,18 @@ Eigen::Matrix3d turned(const Eigen::Matrix3d& covariance, const Pose2& T) {
 
 }  // namespace
 
-void DriveRecord::followFilter(const RangeBearingEstimator& estimator) {
+void DriveSoFar::followFilter(const RangeBearingEstimator& estimator) {
   const Pose2 T = now_.T_world_filter;
   now_ = {T * estimator.pose(), turned(estimator.poseCovariance(), T), T * estimator.worldOrigin(),
           T};
 }
 
-void DriveRecord::follow(const RangeBearingEstimator& estimator) {
+void DriveSoFar::follow(const RangeBearingEstimator& estimator,
+                        const Eigen::Matrix3d& motion_covariance) {
+  const bool first = !begun_;
+  begun_ = true;
   const Pose2 T_filter_robot = estimator.pose();
-  if (!T_world_robot_.empty()) said_.push_back(now_.T_world_robot);
+  if (!first) said_.push_back(now_.T_world_robot);
   if (!is_smoothed_) {
     followFilter(estimator);
   } else {
@@ -45,87 +51,182 @@ void DriveRecord::follow(const RangeBearingEstimator& estimator) {
     // By wheels alone less and less is known; what was read since says more, but errors that are
     // alike from frame to frame make the filter sure of it.
     const Eigen::Matrix3d by_wheels = J_before * now_.covariance * J_before.transpose() +
-                                      J_motion * motions_.back().covariance * J_motion.transpose();
+                                      J_motion * motion_covariance * J_motion.transpose();
     const Eigen::Matrix3d by_filter =
         kDoubt * share_ * turned(estimator.poseCovariance(), now_.T_world_filter);
     now_.covariance = by_filter.determinant() < by_wheels.determinant() ? by_filter : by_wheels;
   }
   T_filter_robot_ = T_filter_robot;
-  if (T_world_robot_.empty()) T_origin_first_ = now_.T_world_origin.inverse() * T_filter_robot;
-  T_world_robot_.push_back(now_.T_world_robot);
+  if (first) T_origin_first_ = now_.T_world_origin.inverse() * T_filter_robot;
 }
 
-bool DriveRecord::isDue(const RangeBearingOptions& options) const {
-  if (!options.smooth || options.smooth_every == 0) return false;
-  const std::size_t frames = stamps_s_.size();
-  const double work = static_cast<double>(frames + readings_.size());
-  return static_cast<double>(frames - tried_frames_) >=
-         std::max<double>(options.smooth_every, work / kPaidByFrame);
-}
-
-void DriveRecord::followHistory(const RangeBearingEstimator& estimator) {
-  const auto decisions = estimator.decisions();
-  if (!std::equal(decided_.begin(), decided_.end(), decisions.begin())) {
-    places_.clear();
-    for (Reading& reading : readings_) reading.used.reset();
-  }
-  decided_ = decisions;
-}
-
-LandmarkMap DriveRecord::mapSoFar(const RangeBearingEstimator& estimator) const {
-  LandmarkMap map = moved(estimator.map(), now_.T_world_filter);
-  for (LandmarkRecord& landmark : map)
-    if (const auto known = places_.find(landmark.id); known != places_.end())
-      landmark.p_world = landmark.extent_a = landmark.extent_b = known->second;
-  return map;
-}
-
-void DriveRecord::catchUp(const RangeBearingEstimator& estimator,
-                          const RangeBearingOptions& options) {
-  if (!isDue(options)) return;
-  tried_frames_ = stamps_s_.size();
-  followHistory(estimator);
-  const LandmarkMap map = mapSoFar(estimator);
-  auto prepared = this->prepared(estimator, map, options, std::nullopt);
-  auto& [drive, identities, readings, places, known] = *prepared;
-  const Smoothing how = smoothOn(drive, options.known_gate_probability);
-  const auto covariance =
-      how.steps > 0 && isGood(drive, how) ? lastPoseCovariance(drive) : std::nullopt;
-  is_smoothed_ = covariance.has_value();
-  if (!covariance) {
-    followFilter(estimator);
-    T_world_robot_.back() = now_.T_world_robot;
+void DriveSoFar::catchUp(const DriveRecord& record, const RangeBearingEstimator& estimator,
+                         const RangeBearingOptions& options) {
+  if (!options.smooth || options.smooth_every == 0) return;
+  if (record.stamps_s.size() < tried_frames_ + static_cast<std::size_t>(options.smooth_every))
     return;
-  }
+  tried_frames_ = record.stamps_s.size();
+  followHistory(estimator.decisions());
+  if (smoother_ && released_ > sighted_.size() + kTakenBack) stop();
+  if (!smoother_) start(options);
+  addFrames(record);
+  addReadings(record, estimator, options);
+  const auto sighted = static_cast<std::size_t>(
+      std::count_if(sighted_.begin(), sighted_.end(), [](const auto& s) { return s.has_value(); }));
+  is_smoothed_ = sighted > 0 && smoother_->update() && 2 * smoother_->unused() < sighted;
+  if (is_smoothed_) return takeResult(estimator, options);
+  stop();
+  followFilter(estimator);
+}
 
-  const Pose2 T_world_drive = options.world_with_map ? asSaid(drive.T_world_robot) : Pose2{};
-  for (std::size_t k = 0; k < T_world_robot_.size(); ++k)
-    T_world_robot_[k] = T_world_drive * drive.T_world_robot[k];
-  places_.clear();
-  for (std::size_t i = 0; i < readings.size(); ++i) {
-    const Drive::Sighting& sighting = drive.sightings[i];
-    readings_[readings[i]].used = sighting.used;
-    if (sighting.used)
-      places_[map[places[sighting.point]].id] =
-          transform(T_world_drive, drive.points_world[sighting.point]);
+void DriveSoFar::start(const RangeBearingOptions& options) {
+  std::optional<Drive::Sensor> sensor;
+  if (options.estimate_sensor) sensor = Drive::Sensor{{}, options.sensor_sigmas};
+  smoother_.emplace(options.known_gate_probability, sensor);
+}
+
+void DriveSoFar::stop() {
+  smoother_.reset();
+  points_.clear();
+  sighted_.clear();
+  open_.clear();
+  released_ = 0;
+}
+
+void DriveSoFar::release(std::size_t reading) {
+  smoother_->removeSighting(sighted_[reading]->sighting);
+  sighted_[reading].reset();
+  open_.push_back(reading);
+  ++released_;
+}
+
+void DriveSoFar::followHistory(const std::vector<std::optional<LandmarkId>>& decisions) {
+  const auto same = static_cast<std::size_t>(
+      std::mismatch(decided_.begin(), decided_.end(), decisions.begin()).first - decided_.begin());
+  decided_ = decisions;
+  if (!smoother_) return;
+  for (std::size_t i = same; i < sighted_.size(); ++i)
+    if (sighted_[i]) release(i);
+  std::erase_if(points_, [&](const auto& point) { return point.second.reading >= same; });
+}
+
+void DriveSoFar::addFrames(const DriveRecord& record) {
+  const Pose2 T_drive_world = T_world_drive_.inverse();
+  for (std::size_t k = smoother_->drive().T_world_robot.size(); k < record.motions.size(); ++k)
+    smoother_->addPose(T_drive_world * (k < said_.size() ? said_[k] : now_.T_world_robot),
+                       record.motions[k]);
+}
+
+bool DriveSoFar::foundPoint(LandmarkId landmark, std::size_t reading, const DriveRecord& record,
+                            const RangeBearingEstimator& estimator,
+                            const RangeBearingOptions& options) {
+  const auto place = estimator.placeOf(landmark);
+  if (!place) return false;
+  const Pose2 T_drive_filter = T_world_drive_.inverse() * now_.T_world_filter;
+  const std::size_t point = smoother_->addPoint(transform(T_drive_filter, *place));
+  points_[landmark] = {point, reading};
+  const auto& [frame, identity, measurement] = record.readings[reading];
+  if (options.bearing_only && !options.wait_for_parallax)
+    smoother_->addDepth({frame, point, measurement->p_robot_camera, options.inverse_depth,
+                         options.inverse_depth_sigma});
+  return true;
+}
+
+/// Readings of believed identities are of their bearer, the others of what they were taken for.
+void DriveSoFar::addReadings(const DriveRecord& record, const RangeBearingEstimator& estimator,
+                             const RangeBearingOptions& options) {
+  std::vector<LandmarkId> gone;
+  for (const auto& [landmark, point] : points_)
+    if (!estimator.filter().knows(landmark)) gone.push_back(landmark);
+  forget(gone);
+  for (std::size_t i = sighted_.size(); i < record.readings.size(); ++i)
+    if (record.readings[i].measurement) open_.push_back(i);
+  sighted_.resize(record.readings.size());
+  std::sort(open_.begin(), open_.end());
+  for (const std::size_t i : open_)
+    if (decided_[i] && !points_.contains(*decided_[i]))
+      foundPoint(*decided_[i], i, record, estimator, options);
+  std::map<int, LandmarkId> bearers;
+  for (const auto& [landmark, point] : points_)
+    if (const auto identity = estimator.identityOf(landmark)) bearers[*identity] = landmark;
+  for (const std::size_t i : open_) {
+    const auto& [frame, identity, measurement] = record.readings[i];
+    std::optional<LandmarkId> landmark = decided_[i];
+    const auto bearer = bearers.find(identity);
+    if (options.use_ids && identity >= 0 && bearer != bearers.end()) landmark = bearer->second;
+    const auto point = landmark ? points_.find(*landmark) : points_.end();
+    if (point == points_.end()) continue;
+    sighted_[i] = Sighted{smoother_->addSighting(
+                              {frame, point->second.point, *measurement, decided_[i].has_value()}),
+                          point->second.point};
   }
-  if (drive.sensor) sensor_ = drive.sensor->errors;
-  now_.T_world_robot = T_world_robot_.back();
-  now_.covariance = turned(*covariance, T_world_drive);
+  std::erase_if(open_, [&](std::size_t i) { return sighted_[i].has_value(); });
+}
+
+void DriveSoFar::forget(const std::vector<LandmarkId>& landmarks) {
+  if (landmarks.empty()) return;
+  for (const LandmarkId landmark : landmarks) {
+    const std::size_t point = points_[landmark].point;
+    for (std::size_t i = 0; i < sighted_.size(); ++i)
+      if (sighted_[i] && sighted_[i]->point == point) release(i);
+    points_.erase(landmark);
+  }
+}
+
+void DriveSoFar::takeResult(const RangeBearingEstimator& estimator,
+                            const RangeBearingOptions& options) {
+  const Drive& drive = smoother_->drive();
+  T_world_drive_ = options.world_with_map ? asSaid(drive.T_world_robot) : Pose2{};
+  const Eigen::Matrix3d covariance = smoother_->lastPoseCovariance();
+  now_.T_world_robot = T_world_drive_ * drive.T_world_robot.back();
+  now_.covariance = turned(covariance, T_world_drive_);
   now_.T_world_filter = now_.T_world_robot * T_filter_robot_.inverse();
-  now_.T_world_origin = T_world_robot_.front() * T_origin_first_.inverse();
+  now_.T_world_origin = T_world_drive_ * drive.T_world_robot.front() * T_origin_first_.inverse();
   // With bearings alone the filter does not know how sure it is.
   const double share =
-      std::cbrt(covariance->determinant() / estimator.poseCovariance().determinant());
+      std::cbrt(covariance.determinant() / estimator.poseCovariance().determinant());
   share_ = options.bearing_only || !std::isfinite(share) ? HUGE_VAL : share;
 }
 
-Pose2 DriveRecord::asSaid(const std::vector<Pose2>& T_drive_robot) const {
+std::vector<Pose2> DriveSoFar::poses() const {
+  std::vector<Pose2> poses = said_;
+  poses.push_back(now_.T_world_robot);
+  if (!smoother_) return poses;
+  const auto& smoothed = smoother_->drive().T_world_robot;
+  for (std::size_t k = 0; k < smoothed.size(); ++k) poses[k] = T_world_drive_ * smoothed[k];
+  return poses;
+}
+
+std::map<LandmarkId, Eigen::Vector2d> DriveSoFar::places() const {
+  std::map<LandmarkId, Eigen::Vector2d> places;
+  if (!smoother_) return places;
+  std::vector<bool> has_readings(smoother_->drive().points_world.size(), false);
+  for (std::size_t i = 0; i < sighted_.size(); ++i)
+    if (isUsed(i).value_or(false)) has_readings[sighted_[i]->point] = true;
+  for (const auto& [landmark, founded] : points_)
+    if (has_readings[founded.point])
+      places[landmark] =
+          transform(T_world_drive_, smoother_->drive().points_world[founded.point]);
+  return places;
+}
+
+std::optional<bool> DriveSoFar::isUsed(std::size_t reading) const {
+  if (reading >= sighted_.size() || !sighted_[reading]) return std::nullopt;
+  return smoother_->drive().sightings[sighted_[reading]->sighting].used;
+}
+
+std::optional<SensorErrors> DriveSoFar::sensorErrors() const {
+  if (!smoother_ || !smoother_->drive().sensor) return std::nullopt;
+  return smoother_->drive().sensor->errors;
+}
+
+Pose2 DriveSoFar::asSaid(const std::vector<Pose2>& T_drive_robot) const {
   if (said_.empty()) return {};
   std::vector<PointPair> pairs;
-  for (std::size_t k = 0; k < said_.size(); ++k) {
+  const Eigen::Vector2d ahead(kAhead_m, 0.0);
+  const std::size_t stride = 1 + said_.size() / kWitnesses;
+  for (std::size_t k = (said_.size() - 1) % stride; k < said_.size(); k += stride) {
     pairs.push_back({said_[k].translation(), T_drive_robot[k].translation()});
-    const Eigen::Vector2d ahead(kAhead_m, 0.0);
     pairs.push_back({transform(said_[k], ahead), transform(T_drive_robot[k], ahead)});
   }
   return rigidFit(pairs);

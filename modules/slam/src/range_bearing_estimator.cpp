@@ -211,6 +211,11 @@ LandmarkMap RangeBearingEstimator::map() const {
   return moved(filter().landmarkMap(), impl_->hypotheses.front().T_world_start);
 }
 SavedMap RangeBearingEstimator::savedMap() const { return impl_->hypotheses.front().savedMap(); }
+std::optional<Eigen::Vector2d> RangeBearingEstimator::placeOf(LandmarkId landmark) const {
+  const auto place = filter().placeOf(landmark);
+  if (!place) return std::nullopt;
+  return transform(impl_->hypotheses.front().T_world_start, *place);
+}
 std::optional<int> RangeBearingEstimator::identityOf(LandmarkId landmark) const {
   return impl_->hypotheses.front().identityOf(landmark);
 }

@@ -43,16 +43,15 @@ void RangeBearingSession::run(FrameSource& source, const Observer& observer) {
     watch.lap();  // what the observer does is no stage of the session
   }
   if (options_.smooth)
-    smoothed_ = record_.smoothed(estimator_, options_, search_ ? std::nullopt : from_);
+    smoothed_ =
+        smoothedDrive(record_, so_far_, estimator_, options_, search_ ? std::nullopt : from_);
 }
 
 RangeBearingReport RangeBearingSession::take(const Taken& frame) {
   RangeBearingReport report = estimator_.step(frame.stamp_s, frame.motion, frame.scan);
-  if (options_.smooth)
-    record_.add(frame.stamp_s, frame.scan, report, estimator_);
-  else
-    record_.follow(estimator_);
-  if (!from_) record_.catchUp(estimator_, options_);
+  if (options_.smooth) record_.add(frame.stamp_s, frame.scan, report);
+  so_far_.follow(estimator_, report.motion_covariance);
+  if (!from_) so_far_.catchUp(record_, estimator_, options_);
   trajectory_.push_back({frame.stamp_s, now().T_world_robot.toIsometry3()});
   return report;
 }
@@ -82,6 +81,7 @@ void RangeBearingSession::lookForPlace(const Taken& frame, const RangeBearingRep
   search_.reset();
   estimator_ = RangeBearingEstimator(options_, filter_options_, *from_);
   record_ = {};
+  so_far_ = {};
   trajectory_.clear();
   for (const Taken& again : std::exchange(since_, {})) {
     const RangeBearingReport report = take(again);

@@ -159,6 +159,10 @@ class EkfSlam {
   /// The state with all landmarks active, up to date. A copy of everything where some rest.
   State fullState() const;
 
+  /// Where a point landmark is, a resting one when it came to rest; nothing for one that is no
+  /// landmark or no more than a direction.
+  std::optional<Eigen::Vector2d> placeOf(LandmarkId landmark) const;
+
   /// All landmarks as exporters want them.
   LandmarkMap landmarkMap() const;
 

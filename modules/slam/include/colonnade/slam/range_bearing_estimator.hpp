@@ -70,6 +70,8 @@ class RangeBearingEstimator {
   /// filter's.
   Pose2 worldOrigin() const;
   LandmarkMap map() const;
+  /// Of a landmark of map(), as the filter last worked with it; at no cost in large maps.
+  std::optional<Eigen::Vector2d> placeOf(LandmarkId landmark) const;
   /// What a later run needs to go on; in the world of map().
   SavedMap savedMap() const;
   /// The identity in the log, where it is believed and known.

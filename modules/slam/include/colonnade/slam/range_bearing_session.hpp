@@ -8,10 +8,10 @@
 
 #include "colonnade/frames/frame_source.hpp"
 #include "colonnade/motion/motion_estimator.hpp"
-#include "colonnade/slam/drive_record.hpp"
 #include "colonnade/slam/place_search.hpp"
 #include "colonnade/slam/range_bearing_estimator.hpp"
 #include "colonnade/slam/session.hpp"
+#include "colonnade/slam/smoothed_drive.hpp"
 
 namespace colonnade {
 
@@ -34,10 +34,10 @@ class RangeBearingSession {
   const RangeBearingEstimator& estimator() const { return estimator_; }
   /// The robot as it is known by now, better than the estimator has it where the drive so far is
   /// smoothed (RangeBearing.smooth_every). In the world of trajectory(), map() and savedMap().
-  const DriveRecord::Now& now() const { return record_.now(); }
+  const DriveSoFar::Now& now() const { return so_far_.now(); }
   /// What the whole log says, once run() has come to its end; nothing with RangeBearing.smooth off
-  /// or where DriveRecord has nothing.
-  const std::optional<DriveRecord::Smoothed>& smoothed() const { return smoothed_; }
+  /// or where smoothedDrive() has nothing.
+  const std::optional<SmoothedDrive>& smoothed() const { return smoothed_; }
   /// Smoothed, once it is. Where the log's identities are believed and every landmark has one, they
   /// are the ids of the map; otherwise those of the filter.
   LandmarkMap map() const;
@@ -78,7 +78,8 @@ class RangeBearingSession {
   RangeBearingEstimator estimator_;
   MotionEstimator motion_;
   DriveRecord record_;
-  std::optional<DriveRecord::Smoothed> smoothed_;
+  DriveSoFar so_far_;
+  std::optional<SmoothedDrive> smoothed_;
   std::vector<int> identities_;  ///< of all readings so far
 };
 

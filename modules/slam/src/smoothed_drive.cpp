@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Colonnade authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "colonnade/slam/drive_record.hpp"
+#include "colonnade/slam/smoothed_drive.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 
 #include "colonnade/filter/gate.hpp"
 #include "colonnade/slam/identity_score.hpp"
-#include "prepared_drive.hpp"
+#include "known_map.hpp"
 
 namespace colonnade {
 namespace {
@@ -36,7 +36,7 @@ void keepPoints(Drive& drive, const std::vector<std::size_t>& kept) {
 
 /// Takes merged landmarks from the map, whose sightings the others inherit. `places` of points.
 void unite(const std::vector<Smoothing::Merger>& mergers, const std::vector<std::size_t>& places,
-           DriveRecord::Smoothed& result) {
+           SmoothedDrive& result) {
   std::vector<bool> stays(result.map.size(), true);
   for (const auto& [point, into] : mergers) {
     LandmarkRecord &gone = result.map[places[point]], &heir = result.map[places[into]];
@@ -62,7 +62,7 @@ void unite(const std::vector<Smoothing::Merger>& mergers, const std::vector<std:
 /// The map's places and their covariance as smoothed, moved on by T; a landmark none of whose
 /// readings was `used` stays as it is.
 void place(const std::vector<Eigen::Vector2d>& points, const std::vector<double>& used,
-           const Pose2& T, DriveRecord::Smoothed& result) {
+           const Pose2& T, SmoothedDrive& result) {
   const Eigen::Matrix2d R = T.rotation();
   Eigen::MatrixXd& C = result.covariance = result.how.covariance;
   for (Eigen::Index i = 0; i < C.rows(); i += 2) {
@@ -111,26 +111,25 @@ std::optional<double> costOfIdentities(Drive drive, const std::vector<int>& iden
   return smoothedCost(std::move(drive), gate_probability);
 }
 
-}  // namespace
+/// A drive as it is known by now, past the landmarks of a map.
+struct Prepared {
+  Drive drive;
+  std::vector<int> identities;      ///< of the sightings, as the log tells them
+  std::vector<std::size_t> places;  ///< of the points, in the map
+  std::optional<KnownMap> known;    ///< what a loaded map says of it beforehand
+};
 
-void DriveRecord::add(double stamp_s, const RangeBearingScan& scan,
-                      const RangeBearingReport& report, const RangeBearingEstimator& estimator) {
-  for (std::size_t i = 0; i < scan.readings.size(); ++i)
-    readings_.push_back({stamps_s_.size(), scan.readings[i].id, report.measurements[i], {}});
-  stamps_s_.push_back(stamp_s);
-  motions_.push_back({report.T_previous_robot, report.motion_covariance});
-  follow(estimator);
-}
-
-std::optional<DriveRecord::Prepared> DriveRecord::prepared(
-    const RangeBearingEstimator& estimator, const LandmarkMap& map,
-    const RangeBearingOptions& options, const std::optional<Resumption>& from) const {
+/// Nothing where the loaded map is of no use.
+std::optional<Prepared> prepared(const DriveRecord& record, const DriveSoFar& so_far,
+                                 const RangeBearingEstimator& estimator, const LandmarkMap& map,
+                                 const RangeBearingOptions& options,
+                                 const std::optional<Resumption>& from) {
   Prepared result;
   Drive& drive = result.drive;
-  drive.T_world_robot = T_world_robot_;
-  drive.motions = motions_;
+  drive.T_world_robot = so_far.poses();
+  drive.motions = record.motions;
   if (options.estimate_sensor)
-    drive.sensor = {sensor_.value_or(SensorErrors{}), options.sensor_sigmas};
+    drive.sensor = {so_far.sensorErrors().value_or(SensorErrors{}), options.sensor_sigmas};
   std::map<LandmarkId, std::size_t> point_of_landmark;
   std::map<int, std::size_t> point_of_identity;
   for (const LandmarkRecord& landmark : map) {
@@ -143,8 +142,8 @@ std::optional<DriveRecord::Prepared> DriveRecord::prepared(
   }
   std::vector<bool> seen(map.size(), false);
   const auto decisions = estimator.decisions();
-  for (std::size_t i = 0; i < readings_.size(); ++i) {
-    const Reading& reading = readings_[i];
+  for (std::size_t i = 0; i < record.readings.size(); ++i) {
+    const DriveRecord::Reading& reading = record.readings[i];
     if (!reading.measurement) continue;
     std::optional<std::size_t> point;
     const auto bearer = point_of_identity.find(reading.identity);
@@ -155,10 +154,9 @@ std::optional<DriveRecord::Prepared> DriveRecord::prepared(
       if (landmark != point_of_landmark.end()) point = landmark->second;
     }
     if (!point) continue;
-    const bool used = reading.used.value_or(decisions[i].has_value());
+    const bool used = so_far.isUsed(i).value_or(decisions[i].has_value());
     drive.sightings.push_back({reading.frame, *point, *reading.measurement, used});
     result.identities.push_back(reading.identity);
-    result.readings.push_back(i);
     if (options.bearing_only && !options.wait_for_parallax && !seen[*point] &&
         !(from && from->map.state.find(map[*point].id)))
       drive.depths.push_back({reading.frame, *point, reading.measurement->p_robot_camera,
@@ -172,23 +170,37 @@ std::optional<DriveRecord::Prepared> DriveRecord::prepared(
   if (!result.known->isUsable()) return std::nullopt;
   result.places = result.known->kept();
   keepPoints(drive, result.places);
-  drive.prior = result.known->prior(motions_.front());
+  drive.prior = result.known->prior(record.motions.front());
   if (from->localize) std::fill_n(drive.nameless.begin(), drive.prior->points_world.size(), false);
   return result;
 }
 
-std::optional<DriveRecord::Smoothed> DriveRecord::smoothed(const RangeBearingEstimator& estimator,
-                                                           const RangeBearingOptions& options,
-                                                           const std::optional<Resumption>& from) {
-  if (T_world_robot_.empty()) return std::nullopt;
-  followHistory(estimator);
-  Smoothed result;
-  result.map = from ? estimator.map() : mapSoFar(estimator);
-  auto prepared = this->prepared(estimator, result.map, options, from);
+/// With places as known by now.
+LandmarkMap mapSoFar(const RangeBearingEstimator& estimator, const DriveSoFar& so_far) {
+  LandmarkMap map = moved(estimator.map(), so_far.now().T_world_filter);
+  const auto places = so_far.places();
+  for (LandmarkRecord& landmark : map)
+    if (const auto known = places.find(landmark.id); known != places.end())
+      landmark.p_world = landmark.extent_a = landmark.extent_b = known->second;
+  return map;
+}
+
+}  // namespace
+
+std::optional<SmoothedDrive> smoothedDrive(const DriveRecord& record, DriveSoFar& so_far,
+                                           const RangeBearingEstimator& estimator,
+                                           const RangeBearingOptions& options,
+                                           const std::optional<Resumption>& from) {
+  if (record.stamps_s.empty()) return std::nullopt;
+  so_far.followHistory(estimator.decisions());
+  SmoothedDrive result;
+  result.map = from ? estimator.map() : mapSoFar(estimator, so_far);
+  auto prepared = colonnade::prepared(record, so_far, estimator, result.map, options, from);
   if (!prepared) return std::nullopt;
-  auto& [drive, identities, readings, places, known] = *prepared;
+  auto& [drive, identities, places, known] = *prepared;
   result.how = smooth(drive, options.known_gate_probability);
-  if (!isGood(drive, result.how)) return std::nullopt;
+  if (!std::isfinite(result.how.cost) || 2 * result.how.unused >= drive.sightings.size())
+    return std::nullopt;
 
   if (!drive.sensor)
     result.suspected = suspectedErrors(drive, result.how.cost, options.sensor_sigmas);
@@ -199,11 +211,11 @@ std::optional<DriveRecord::Smoothed> DriveRecord::smoothed(const RangeBearingEst
   std::vector<double> used(drive.points_world.size(), 0.0);
   for (const Drive::Sighting& sighting : drive.sightings)
     if (sighting.used) used[sighting.point] += 1.0;
-  const Pose2 T_map_start = options.world_with_map && !from ? asSaid(drive.T_world_robot) : Pose2{};
-  result.T_world_filter = T_map_start * now_.T_world_filter;
-  for (std::size_t k = 0; k < stamps_s_.size(); ++k)
+  const Pose2 T_map_start = options.world_with_map && !from ? so_far.asSaid(drive.T_world_robot) : Pose2{};
+  result.T_world_filter = T_map_start * so_far.now().T_world_filter;
+  for (std::size_t k = 0; k < record.stamps_s.size(); ++k)
     result.trajectory.push_back(
-        {stamps_s_[k], (T_map_start * drive.T_world_robot[k]).toIsometry3()});
+        {record.stamps_s[k], (T_map_start * drive.T_world_robot[k]).toIsometry3()});
   if (!known)
     place(drive.points_world, used, T_map_start, result);
   else if (!from->localize)

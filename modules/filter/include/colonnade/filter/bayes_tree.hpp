@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace colonnade {
+
+/// |J x + r|^2, x what some variables have moved by.
+struct LinearFactor {
+  std::vector<int> variables;
+  Eigen::MatrixXd J_r;  ///< the columns of the variables one after another and, last, r
+};
+
+/// Linear least squares that change little from one solution to the next: variables are eliminated
+/// one after another, and where factors change only those eliminated from there on are eliminated
+/// again, in a new order (the Bayes tree of Kaess, Johannsson, Roberts, Ila, Leonard and Dellaert,
+/// iSAM2, International Journal of Robotics Research 31(2), 2012; each clique here has one frontal
+/// variable). Every variable has to have a factor before update().
+class BayesTree {
+ public:
+  int addVariable(int size);
+  int addFactor(LinearFactor factor);
+  /// Of the same variables, or of none: it has no say.
+  void setFactor(int factor, LinearFactor to);
+  const LinearFactor& factor(int factor) const { return factors_[index(factor)]; }
+
+  /// Eliminates what has changed, with `last` last, and solves. False: the equations are singular,
+  /// and so they remain.
+  bool update(std::span<const int> last);
+  /// What a variable has moved by, to 1e-5.
+  Eigen::Map<const Eigen::VectorXd> x(int variable) const;
+  /// Variables whose x the last update changed.
+  const std::vector<int>& moved() const { return moved_; }
+  /// Of the last of `last`.
+  Eigen::MatrixXd covarianceOfLast() const;
+  /// Variables eliminated by the last update.
+  std::size_t eliminated() const { return order_.size(); }
+
+ private:
+  struct Node {
+    int size = 0;
+    Eigen::Index at = 0;  ///< in x
+    std::vector<int> factors;
+    // As eliminated; L of the rows of the separator, too, S and s what is passed on to it.
+    bool done = false;
+    int parent = -1;
+    std::vector<int> children;
+    std::vector<int> separator;
+    Eigen::MatrixXd L, S;
+    Eigen::VectorXd y, s;
+  };
+  static std::size_t index(int i) { return static_cast<std::size_t>(i); }
+  Node& node(int variable) { return nodes_[index(variable)]; }
+
+  void touch(const LinearFactor& factor);
+  std::vector<int> takeTop();
+  void putInOrder(const std::vector<int>& orphans, std::span<const int> last);
+  /// Where, of these variables, the first to be eliminated is.
+  int firstPosition(const std::vector<int>& variables) const;
+  void assign(const std::vector<int>& orphans);
+  bool eliminate(int variable);
+  /// Whether it moved.
+  bool solve(int variable);
+  void solveBelow(const std::vector<int>& orphans);
+  /// Rows in front_ of variables one after another, into at_.
+  void findRows(const std::vector<int>& variables);
+
+  std::vector<Node> nodes_;
+  std::vector<LinearFactor> factors_;
+  std::vector<double> x_;
+  std::vector<int> touched_;
+  int root_ = -1;
+  std::vector<int> moved_;
+  // While something is eliminated:
+  std::vector<int> order_;
+  std::vector<int> position_;                ///< of variables in the order; -1: stays eliminated
+  std::vector<std::pair<int, int>> met_;     ///< where a factor is first met, and which; sorted
+  Eigen::MatrixXd front_;                    ///< its lower triangle
+  Eigen::VectorXd front_b_;
+  std::vector<Eigen::Index> row_;            ///< of a variable in the front; -1: not there
+  std::vector<Eigen::Index> at_;
+};
+
+}  // namespace colonnade

@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "colonnade/filter/bayes_tree.hpp"
+#include "colonnade/filter/smoother.hpp"
+
+namespace colonnade {
+
+/// smoothOn() of a drive that goes on, at a cost that does not grow with it: what is known of most
+/// of it stays eliminated (BayesTree), and a term is linearised again only where it is off from
+/// what its linearisation says. Without a prior: the first pose is given.
+class IncrementalSmoother {
+ public:
+  IncrementalSmoother(double gate_probability, const std::optional<Drive::Sensor>& sensor);
+
+  /// Poses, points and sightings are numbered as they are added. A sighting not used comes in when
+  /// it is within the gate.
+  void addPose(const Pose2& T_world_robot, const Drive::Motion& motion);
+  std::size_t addPoint(const Eigen::Vector2d& p_world);
+  std::size_t addSighting(const Drive::Sighting& sighting);
+  /// It has no say any more.
+  void removeSighting(std::size_t sighting);
+  void addDepth(const Drive::Depth& depth);
+
+  /// Steps of Gauss and Newton until no term is off by much. False: no solution; then nothing it
+  /// holds is of use.
+  bool update();
+  /// As known by now; sightings that were removed are not used.
+  const Drive& drive() const { return drive_; }
+  std::size_t unused() const;
+  /// Of (x, y, phi) of the last pose in the axes of the world, given the first. After update().
+  Eigen::Matrix3d lastPoseCovariance() const { return tree_.covarianceOfLast(); }
+
+ private:
+  LinearFactor motionFactor(std::size_t pose) const;
+  LinearFactor sightingFactor(std::size_t sighting) const;
+  LinearFactor depthFactor(std::size_t depth) const;
+  void set(int& factor, LinearFactor to);
+  /// Whether it was off.
+  bool relinearise(int factor, LinearFactor now);
+  /// The terms of a pose: its motion, sightings and depths. Whether any was off, or came in or went
+  /// out.
+  bool relineariseAt(std::size_t pose);
+  bool gateAt(std::size_t pose);
+  /// Of terms long settled, as many as time allows.
+  void sweep();
+  bool step(const std::vector<int>& last);
+  std::vector<int> likelyNext() const;
+  void takeSolution();
+
+  double gate_probability_;
+  Drive drive_;
+  std::vector<bool> removed_;  ///< sightings
+  BayesTree tree_;
+  std::optional<int> sensor_;
+  std::vector<int> poses_, points_;  ///< variables; -1: the pose that is given
+  std::vector<Eigen::Vector3d> pose_bases_;
+  std::vector<Eigen::Vector2d> point_bases_;
+  std::vector<std::size_t> number_;  ///< of the pose or the point a variable is
+  std::vector<int> motions_, sightings_, depths_;  ///< factors; -1: none
+  struct Terms {
+    std::vector<std::size_t> sightings, depths;
+  };
+  std::vector<Terms> terms_;  ///< of each pose, but for its motion
+  std::size_t updated_ = 0;   ///< poses at the last update
+  std::size_t swept_ = 0;
+};
+
+}  // namespace colonnade

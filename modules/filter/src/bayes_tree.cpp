@@ -1,0 +1,287 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "colonnade/filter/bayes_tree.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <Eigen/OrderingMethods>
+#include <Eigen/SparseCore>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace colonnade {
+namespace {
+
+/// A variable that would move by less stays where it is, m and rad, and so does what is below.
+constexpr double kStill = 1e-5;
+/// J^T J of a factor of three variables and its right side without an allocation.
+using Gram = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 11, 11>;
+
+}  // namespace
+
+int BayesTree::addVariable(int size) {
+  Node node;
+  node.size = size;
+  node.at = static_cast<Eigen::Index>(x_.size());
+  nodes_.push_back(std::move(node));
+  x_.resize(x_.size() + index(size), 0.0);
+  position_.push_back(-1);
+  row_.push_back(-1);
+  return static_cast<int>(nodes_.size()) - 1;
+}
+
+int BayesTree::addFactor(LinearFactor factor) {
+  const int number = static_cast<int>(factors_.size());
+  for (const int v : factor.variables) node(v).factors.push_back(number);
+  touch(factor);
+  factors_.push_back(std::move(factor));
+  return number;
+}
+
+void BayesTree::setFactor(int factor, LinearFactor to) {
+  LinearFactor& here = factors_[index(factor)];
+  touch(here);
+  for (const int v : here.variables)
+    if (to.variables.empty()) std::erase(node(v).factors, factor);
+  if (here.variables.empty())
+    for (const int v : to.variables) node(v).factors.push_back(factor);
+  touch(to);
+  here = std::move(to);
+}
+
+void BayesTree::touch(const LinearFactor& factor) {
+  touched_.insert(touched_.end(), factor.variables.begin(), factor.variables.end());
+}
+
+bool BayesTree::update(std::span<const int> last) {
+  if (!last.empty()) root_ = last.back();
+  const std::vector<int> orphans = takeTop();
+  putInOrder(orphans, last);
+  assign(orphans);
+  bool good = true;
+  for (const int v : order_) good = good && eliminate(v);
+  if (!good) {
+    touched_ = order_;
+  } else {
+    moved_.clear();
+    for (auto v = order_.rbegin(); v != order_.rend(); ++v)
+      if (solve(*v)) moved_.push_back(*v);
+    solveBelow(orphans);
+  }
+  for (const int v : order_) position_[index(v)] = -1;
+  return good;
+}
+
+/// Takes what was touched and all above it out of the tree, into order_; what is left below.
+std::vector<int> BayesTree::takeTop() {
+  order_.clear();
+  for (int v : std::exchange(touched_, {}))
+    for (; v >= 0 && position_[index(v)] < 0; v = node(v).parent) {
+      position_[index(v)] = 0;
+      order_.push_back(v);
+    }
+  std::vector<int> orphans;
+  for (const int v : order_) {
+    Node& gone = node(v);
+    for (const int child : gone.children)
+      if (position_[index(child)] < 0) orphans.push_back(child);
+    gone.children.clear();
+    gone.separator.clear();
+    gone.parent = -1;
+    gone.done = false;
+  }
+  return orphans;
+}
+
+void BayesTree::putInOrder(const std::vector<int>& orphans, std::span<const int> last) {
+  const auto size = static_cast<Eigen::Index>(order_.size());
+  for (std::size_t i = 0; i < order_.size(); ++i)
+    position_[index(order_[i])] = static_cast<int>(i);
+  std::vector<Eigen::Triplet<double>> together;
+  for (const int v : order_) {
+    const int p = position_[index(v)];
+    together.emplace_back(p, p, 1.0);
+    for (const int f : node(v).factors)
+      for (const int u : factors_[index(f)].variables)
+        if (u != v && position_[index(u)] >= 0) together.emplace_back(p, position_[index(u)], 1.0);
+  }
+  for (const int orphan : orphans)
+    for (const int v : node(orphan).separator)
+      for (const int u : node(orphan).separator)
+        if (u != v) together.emplace_back(position_[index(v)], position_[index(u)], 1.0);
+  Eigen::SparseMatrix<double> graph(size, size);
+  graph.setFromTriplets(together.begin(), together.end());
+  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> permutation;
+  if (size > 0) Eigen::AMDOrdering<int>()(graph, permutation);
+  std::vector<bool> is_last(order_.size(), false);
+  for (const int v : last)
+    if (position_[index(v)] >= 0) is_last[index(position_[index(v)])] = true;
+  std::vector<int> order;
+  for (Eigen::Index i = 0; i < size; ++i)
+    if (const auto k = index(permutation.indices()(i)); !is_last[k]) order.push_back(order_[k]);
+  for (const int v : last)
+    if (position_[index(v)] >= 0) order.push_back(v);
+  order_ = std::move(order);
+  for (std::size_t i = 0; i < order_.size(); ++i)
+    position_[index(order_[i])] = static_cast<int>(i);
+}
+
+int BayesTree::firstPosition(const std::vector<int>& variables) const {
+  int first = position_[index(variables.front())];
+  for (const int v : variables) first = std::min(first, position_[index(v)]);
+  return first;
+}
+
+/// Each factor and each part that stays eliminated counts where the first of its variables is.
+void BayesTree::assign(const std::vector<int>& orphans) {
+  met_.clear();
+  for (const int v : order_)
+    for (const int f : node(v).factors)
+      if (const int first = firstPosition(factors_[index(f)].variables);
+          first == position_[index(v)])
+        met_.emplace_back(first, f);
+  for (const int orphan : orphans) {
+    const int first = order_[index(firstPosition(node(orphan).separator))];
+    node(orphan).parent = first;
+    node(first).children.push_back(orphan);
+  }
+}
+
+void BayesTree::findRows(const std::vector<int>& variables) {
+  at_.clear();
+  for (const int v : variables)
+    for (int i = 0; i < node(v).size; ++i) at_.push_back(row_[index(v)] + i);
+}
+
+bool BayesTree::eliminate(int variable) {
+  Node& here = node(variable);
+  const auto [own, own_end] = std::equal_range(
+      met_.begin(), met_.end(), std::pair(position_[index(variable)], 0),
+      [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<int>& separator = here.separator;
+  row_[index(variable)] = 0;
+  const auto take = [&](const std::vector<int>& variables) {
+    for (const int v : variables) {
+      if (row_[index(v)] >= 0) continue;
+      row_[index(v)] = 0;
+      separator.push_back(v);
+    }
+  };
+  for (auto f = own; f != own_end; ++f) take(factors_[index(f->second)].variables);
+  for (const int child : here.children) take(node(child).separator);
+  std::sort(separator.begin(), separator.end(),
+            [&](int a, int b) { return position_[index(a)] < position_[index(b)]; });
+  Eigen::Index rows = here.size;
+  for (const int v : separator) {
+    row_[index(v)] = rows;
+    rows += node(v).size;
+  }
+
+  if (front_.rows() < rows) {
+    front_.resize(2 * rows, 2 * rows);
+    front_b_.resize(2 * rows);
+  }
+  auto F = front_.topLeftCorner(rows, rows);
+  auto b = front_b_.head(rows);
+  F.setZero();
+  b.setZero();
+  for (auto f = own; f != own_end; ++f) {
+    const LinearFactor& factor = factors_[index(f->second)];
+    findRows(factor.variables);
+    const Gram G = factor.J_r.transpose().lazyProduct(factor.J_r);
+    const Eigen::Index n = G.rows() - 1;
+    for (Eigen::Index j = 0; j < n; ++j) {
+      const Eigen::Index column = at_[static_cast<std::size_t>(j)];
+      b(column) -= G(j, n);
+      for (Eigen::Index i = 0; i < n; ++i)
+        if (const Eigen::Index row = at_[static_cast<std::size_t>(i)]; row >= column)
+          F(row, column) += G(i, j);
+    }
+  }
+  for (const int child : here.children) {
+    const Node& below = node(child);
+    findRows(below.separator);
+    const auto n = static_cast<Eigen::Index>(at_.size());
+    for (Eigen::Index j = 0; j < n; ++j) {
+      const Eigen::Index column = at_[static_cast<std::size_t>(j)];
+      b(column) += below.s(j);
+      for (Eigen::Index i = j; i < n; ++i) {
+        const Eigen::Index row = at_[static_cast<std::size_t>(i)];
+        F(std::max(row, column), std::min(row, column)) += below.S(i, j);
+      }
+    }
+  }
+  row_[index(variable)] = -1;
+  for (const int v : separator) row_[index(v)] = -1;
+
+  const Eigen::Index size = here.size, rest = rows - size;
+  const Eigen::LLT<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 5, 5>> llt(
+      F.topLeftCorner(size, size));
+  if (llt.info() != Eigen::Success || !F.allFinite()) return false;
+  here.L = F.leftCols(size);
+  here.L.topRows(size) = llt.matrixL();
+  here.y = b.head(size);
+  const auto L = here.L.topRows(size).triangularView<Eigen::Lower>();
+  L.solveInPlace(here.y);
+  auto below = here.L.bottomRows(rest);
+  L.transpose().solveInPlace<Eigen::OnTheRight>(below);
+  here.S = F.bottomRightCorner(rest, rest);
+  here.S.selfadjointView<Eigen::Lower>().rankUpdate(below, -1.0);
+  here.s = b.tail(rest) - below * here.y;
+  here.done = true;
+  if (!separator.empty()) {
+    here.parent = separator.front();
+    node(here.parent).children.push_back(variable);
+  }
+  return true;
+}
+
+bool BayesTree::solve(int variable) {
+  const Node& here = node(variable);
+  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 5, 1> x = here.y;
+  Eigen::Index row = here.size;
+  for (const int v : here.separator) {
+    const Node& above = node(v);
+    x -= here.L.middleRows(row, above.size).transpose().lazyProduct(this->x(v));
+    row += above.size;
+  }
+  here.L.topRows(here.size).triangularView<Eigen::Lower>().transpose().solveInPlace(x);
+  Eigen::Map<Eigen::VectorXd> stored(x_.data() + here.at, here.size);
+  if ((x - stored).lpNorm<Eigen::Infinity>() < kStill) return false;
+  stored = x;
+  return true;
+}
+
+/// What stayed eliminated, as far as what is above has moved.
+void BayesTree::solveBelow(const std::vector<int>& orphans) {
+  for (const int v : moved_) row_[index(v)] = 0;
+  std::vector<int> left = orphans;
+  while (!left.empty()) {
+    const int v = left.back();
+    left.pop_back();
+    const auto& separator = node(v).separator;
+    if (std::none_of(separator.begin(), separator.end(),
+                     [&](int u) { return row_[index(u)] >= 0; }))
+      continue;
+    if (solve(v)) {
+      row_[index(v)] = 0;
+      moved_.push_back(v);
+    }
+    left.insert(left.end(), node(v).children.begin(), node(v).children.end());
+  }
+  for (const int v : moved_) row_[index(v)] = -1;
+}
+
+Eigen::Map<const Eigen::VectorXd> BayesTree::x(int variable) const {
+  const Node& here = nodes_[index(variable)];
+  return {x_.data() + here.at, here.size};
+}
+
+Eigen::MatrixXd BayesTree::covarianceOfLast() const {
+  const Node& root = nodes_[index(root_)];
+  const Eigen::MatrixXd L = root.L;
+  return (L * L.transpose()).inverse();
+}
+
+}  // namespace colonnade

@@ -1,0 +1,276 @@
+// SPDX-FileCopyrightText: 2026 The Colonnade authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "colonnade/filter/incremental_smoother.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "colonnade/base/angle.hpp"
+#include "colonnade/filter/gate.hpp"
+#include "drive_terms.hpp"
+
+namespace colonnade {
+namespace {
+
+constexpr int kMostSteps = 5;
+constexpr int kMostGatings = 2;
+/// Poses before the new ones that are looked at in every step, and terms elsewhere at each update.
+constexpr std::size_t kRecent = 30, kSwept = 1500;
+/// A term is linearised again when it is off by more than this from what its linearisation says, in
+/// sigmas, or its derivatives by more than this share of them.
+constexpr double kOff = 0.01;
+
+/// U with U^T U = information.
+Eigen::MatrixXd rootOf(const Eigen::MatrixXd& information) {
+  return Eigen::LLT<Eigen::MatrixXd>(information).matrixU();
+}
+
+}  // namespace
+
+IncrementalSmoother::IncrementalSmoother(double gate_probability,
+                                         const std::optional<Drive::Sensor>& sensor)
+    : gate_probability_(gate_probability) {
+  drive_.sensor = sensor;
+  if (!sensor) return;
+  sensor_ = tree_.addVariable(SensorErrors::kSize);
+  number_.push_back(0);
+  Eigen::MatrixXd J_r(SensorErrors::kSize, SensorErrors::kSize + 1);
+  const SensorErrors::Vector root =
+      sensor->sigmas.vector().cwiseMax(kKnownSigma).cwiseInverse();
+  J_r << root.asDiagonal().toDenseMatrix(), Eigen::VectorXd::Zero(SensorErrors::kSize);
+  drive_.sensor->errors = {};
+  tree_.addFactor({{*sensor_}, J_r});
+}
+
+void IncrementalSmoother::addPose(const Pose2& T_world_robot, const Drive::Motion& motion) {
+  const bool first = poses_.empty();
+  drive_.T_world_robot.push_back(T_world_robot);
+  drive_.motions.push_back(motion);
+  pose_bases_.push_back(T_world_robot.vector());
+  poses_.push_back(first ? -1 : tree_.addVariable(3));
+  if (!first) number_.push_back(poses_.size() - 1);
+  terms_.emplace_back();
+  motions_.push_back(-1);
+  if (!first) set(motions_.back(), motionFactor(poses_.size() - 1));
+}
+
+std::size_t IncrementalSmoother::addPoint(const Eigen::Vector2d& p_world) {
+  drive_.points_world.push_back(p_world);
+  point_bases_.push_back(p_world);
+  points_.push_back(tree_.addVariable(2));
+  number_.push_back(points_.size() - 1);
+  Eigen::MatrixXd J_r = Eigen::MatrixXd::Zero(2, 3);
+  J_r.leftCols<2>().diagonal().setConstant(1.0 / kLooseSigma_m);
+  tree_.addFactor({{points_.back()}, J_r});
+  return points_.size() - 1;
+}
+
+std::size_t IncrementalSmoother::addSighting(const Drive::Sighting& sighting) {
+  drive_.sightings.push_back(sighting);
+  Drive::Sighting& here = drive_.sightings.back();
+  here.used = here.used && std::isfinite(distance2(drive_, here));
+  removed_.push_back(false);
+  sightings_.push_back(-1);
+  if (here.used) set(sightings_.back(), sightingFactor(sightings_.size() - 1));
+  terms_[sighting.pose].sightings.push_back(sightings_.size() - 1);
+  return sightings_.size() - 1;
+}
+
+void IncrementalSmoother::removeSighting(std::size_t sighting) {
+  removed_[sighting] = true;
+  drive_.sightings[sighting].used = false;
+  if (sightings_[sighting] >= 0) tree_.setFactor(sightings_[sighting], {});
+}
+
+void IncrementalSmoother::addDepth(const Drive::Depth& depth) {
+  drive_.depths.push_back(depth);
+  depths_.push_back(-1);
+  terms_[depth.pose].depths.push_back(depths_.size() - 1);
+  set(depths_.back(), depthFactor(depths_.size() - 1));
+}
+
+LinearFactor IncrementalSmoother::motionFactor(std::size_t pose) const {
+  const MotionTerm term = motionTerm(drive_, pose);
+  const Eigen::Matrix3d root = rootOf(term.information);
+  const bool from_first = poses_[pose - 1] < 0;
+  LinearFactor factor;
+  if (!from_first) factor.variables.push_back(poses_[pose - 1]);
+  factor.variables.push_back(poses_[pose]);
+  factor.J_r.resize(3, from_first ? 4 : 7);
+  Eigen::Vector3d r = term.residual - term.J_after * tree_.x(poses_[pose]);
+  if (!from_first) {
+    r -= term.J_before * tree_.x(poses_[pose - 1]);
+    factor.J_r.leftCols<3>() = root * term.J_before;
+  }
+  factor.J_r.rightCols<4>() << root * term.J_after, root * r;
+  return factor;
+}
+
+LinearFactor IncrementalSmoother::sightingFactor(std::size_t number) const {
+  const Drive::Sighting& sighting = drive_.sightings[number];
+  const SightingTerm term = sightingTerm(drive_, sighting);
+  const double distance2 = term.residual.dot(term.information * term.residual);
+  const Eigen::MatrixXd root =
+      std::sqrt(huberWeight(distance2, term.residual.size())) * rootOf(term.information);
+  LinearFactor factor;
+  Eigen::MatrixXd& J_r = factor.J_r;
+  J_r.resize(term.residual.size(), 3 + 2 + SensorErrors::kSize + 1);
+  Eigen::VectorXd r = term.residual;
+  Eigen::Index column = 0;
+  const auto add = [&](int variable, const auto& J) {
+    factor.variables.push_back(variable);
+    r -= J * tree_.x(variable);
+    J_r.middleCols(column, J.cols()) = root * J;
+    column += J.cols();
+  };
+  if (poses_[sighting.pose] >= 0) add(poses_[sighting.pose], term.J_pose);
+  add(points_[sighting.point], term.J_point);
+  if (sensor_) add(*sensor_, term.J_sensor);
+  J_r.col(column) = root * r;
+  J_r.conservativeResize(Eigen::NoChange, column + 1);
+  return factor;
+}
+
+LinearFactor IncrementalSmoother::depthFactor(std::size_t number) const {
+  const Drive::Depth& depth = drive_.depths[number];
+  const DepthTerm term = depthTerm(drive_, depth);
+  const double root = std::sqrt(term.information);
+  const int pose = poses_[depth.pose], point = points_[depth.point];
+  LinearFactor factor;
+  if (pose >= 0) factor.variables.push_back(pose);
+  factor.variables.push_back(point);
+  double r = term.residual - term.J_point * tree_.x(point);
+  if (pose >= 0) r -= term.J_pose * tree_.x(pose);
+  factor.J_r.resize(1, pose >= 0 ? 6 : 3);
+  if (pose >= 0) factor.J_r.leftCols<3>() = root * term.J_pose;
+  factor.J_r.rightCols<3>() << root * term.J_point, root * r;
+  return factor;
+}
+
+void IncrementalSmoother::set(int& factor, LinearFactor to) {
+  if (factor < 0)
+    factor = tree_.addFactor(std::move(to));
+  else
+    tree_.setFactor(factor, std::move(to));
+}
+
+bool IncrementalSmoother::relinearise(int factor, LinearFactor now) {
+  const Eigen::MatrixXd &before = tree_.factor(factor).J_r, &J_r = now.J_r;
+  const Eigen::Index n = J_r.cols() - 1;
+  const Eigen::MatrixXd dJ = J_r.leftCols(n) - before.leftCols(n);
+  // Both linearisations at the present x.
+  Eigen::VectorXd r = J_r.col(n) - before.col(n);
+  Eigen::Index column = 0;
+  for (const int v : now.variables) {
+    const auto x = tree_.x(v);
+    r += dJ.middleCols(column, x.size()) * x;
+    column += x.size();
+  }
+  if (r.squaredNorm() < kOff * kOff &&
+      dJ.squaredNorm() < kOff * kOff * J_r.leftCols(n).squaredNorm())
+    return false;
+  tree_.setFactor(factor, std::move(now));
+  return true;
+}
+
+bool IncrementalSmoother::relineariseAt(std::size_t pose) {
+  bool any = pose > 0 && relinearise(motions_[pose], motionFactor(pose));
+  for (const std::size_t i : terms_[pose].sightings)
+    if (drive_.sightings[i].used) any |= relinearise(sightings_[i], sightingFactor(i));
+  for (const std::size_t i : terms_[pose].depths) any |= relinearise(depths_[i], depthFactor(i));
+  return any;
+}
+
+bool IncrementalSmoother::gateAt(std::size_t pose) {
+  bool any = false;
+  for (const std::size_t i : terms_[pose].sightings) {
+    Drive::Sighting& sighting = drive_.sightings[i];
+    if (removed_[i]) continue;
+    const double distance = distance2(drive_, sighting);
+    const bool within =
+        std::isfinite(distance) &&
+        distance <= chiSquareQuantile(gate_probability_,
+                                      static_cast<int>(sighting.measurement.z.size()));
+    if (within == sighting.used) continue;
+    sighting.used = within;
+    any = true;
+    set(sightings_[i], within ? sightingFactor(i) : LinearFactor{});
+  }
+  return any;
+}
+
+void IncrementalSmoother::sweep() {
+  std::size_t looked_at = 0;
+  for (std::size_t k = 0; k < updated_ && looked_at < kSwept; ++k) {
+    if (swept_ >= updated_) swept_ = 0;
+    relineariseAt(swept_);
+    gateAt(swept_);
+    looked_at += 1 + terms_[swept_].sightings.size();
+    ++swept_;
+  }
+}
+
+/// The sensor, the last pose and the points it and those before it saw.
+std::vector<int> IncrementalSmoother::likelyNext() const {
+  std::vector<int> last;
+  for (std::size_t k = poses_.size(); k-- > 0 && k + kRecent > poses_.size();)
+    for (const std::size_t i : terms_[k].sightings)
+      if (const int point = points_[drive_.sightings[i].point];
+          std::find(last.begin(), last.end(), point) == last.end())
+        last.push_back(point);
+  std::reverse(last.begin(), last.end());
+  if (sensor_) last.push_back(*sensor_);
+  last.push_back(poses_.back());
+  return last;
+}
+
+bool IncrementalSmoother::step(const std::vector<int>& last) {
+  if (!tree_.update(last)) return false;
+  takeSolution();
+  return true;
+}
+
+bool IncrementalSmoother::update() {
+  if (poses_.size() < 2) return false;
+  sweep();
+  const std::vector<int> last = likelyNext();
+  const std::size_t first = updated_ > kRecent ? updated_ - kRecent : 0;
+  updated_ = poses_.size();
+  for (int gating = 0; gating < kMostGatings; ++gating) {
+    bool off = true;
+    for (int i = 0; i < kMostSteps && off; ++i) {
+      if (!step(last)) return false;
+      off = false;
+      for (std::size_t k = first; k < poses_.size(); ++k) off |= relineariseAt(k);
+    }
+    bool changed = false;
+    for (std::size_t k = first; k < poses_.size(); ++k) changed |= gateAt(k);
+    if (!changed) break;
+  }
+  return true;
+}
+
+void IncrementalSmoother::takeSolution() {
+  for (const int v : tree_.moved()) {
+    const std::size_t i = number_[static_cast<std::size_t>(v)];
+    if (v == sensor_) {
+      drive_.sensor->errors = SensorErrors::of(tree_.x(v));
+    } else if (tree_.x(v).size() == 3) {
+      const Eigen::Vector3d pose = pose_bases_[i] + tree_.x(v);
+      drive_.T_world_robot[i] = {pose(0), pose(1), wrapAngle(pose(2))};
+    } else {
+      drive_.points_world[i] = point_bases_[i] + tree_.x(v);
+    }
+  }
+}
+
+std::size_t IncrementalSmoother::unused() const {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < sightings_.size(); ++i)
+    count += !removed_[i] && !drive_.sightings[i].used;
+  return count;
+}
+
+}  // namespace colonnade
