@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "colonnade/base/angle.hpp"
@@ -14,13 +15,18 @@
 namespace colonnade {
 namespace {
 
-constexpr int kMostSteps = 5;
+constexpr int kMostSteps = 20;
 constexpr int kMostGatings = 2;
 /// Poses before the new ones that are looked at in every step, and terms elsewhere at each update.
 constexpr std::size_t kRecent = 30, kSwept = 1500;
 /// A term is linearised again when it is off by more than this from what its linearisation says, in
 /// sigmas, or its derivatives by more than this share of them.
 constexpr double kOff = 0.01;
+
+/// A step that moves anything farther is checked, m and rad, and halved so often while it does not
+/// help.
+constexpr double kLarge = 0.1;
+constexpr int kHalvings = 8;
 
 /// U with U^T U = information.
 Eigen::MatrixXd rootOf(const Eigen::MatrixXd& information) {
@@ -99,9 +105,9 @@ LinearFactor IncrementalSmoother::motionFactor(std::size_t pose) const {
   if (!from_first) factor.variables.push_back(poses_[pose - 1]);
   factor.variables.push_back(poses_[pose]);
   factor.J_r.resize(3, from_first ? 4 : 7);
-  Eigen::Vector3d r = term.residual - term.J_after * tree_.x(poses_[pose]);
+  Eigen::Vector3d r = term.residual - term.J_after * moved(poses_[pose]);
   if (!from_first) {
-    r -= term.J_before * tree_.x(poses_[pose - 1]);
+    r -= term.J_before * moved(poses_[pose - 1]);
     factor.J_r.leftCols<3>() = root * term.J_before;
   }
   factor.J_r.rightCols<4>() << root * term.J_after, root * r;
@@ -121,7 +127,7 @@ LinearFactor IncrementalSmoother::sightingFactor(std::size_t number) const {
   Eigen::Index column = 0;
   const auto add = [&](int variable, const auto& J) {
     factor.variables.push_back(variable);
-    r -= J * tree_.x(variable);
+    r -= J * moved(variable);
     J_r.middleCols(column, J.cols()) = root * J;
     column += J.cols();
   };
@@ -141,8 +147,8 @@ LinearFactor IncrementalSmoother::depthFactor(std::size_t number) const {
   LinearFactor factor;
   if (pose >= 0) factor.variables.push_back(pose);
   factor.variables.push_back(point);
-  double r = term.residual - term.J_point * tree_.x(point);
-  if (pose >= 0) r -= term.J_pose * tree_.x(pose);
+  double r = term.residual - term.J_point * moved(point);
+  if (pose >= 0) r -= term.J_pose * moved(pose);
   factor.J_r.resize(1, pose >= 0 ? 6 : 3);
   if (pose >= 0) factor.J_r.leftCols<3>() = root * term.J_pose;
   factor.J_r.rightCols<3>() << root * term.J_point, root * r;
@@ -160,11 +166,11 @@ bool IncrementalSmoother::relinearise(int factor, LinearFactor now) {
   const Eigen::MatrixXd &before = tree_.factor(factor).J_r, &J_r = now.J_r;
   const Eigen::Index n = J_r.cols() - 1;
   const Eigen::MatrixXd dJ = J_r.leftCols(n) - before.leftCols(n);
-  // Both linearisations at the present x.
+  // Both linearisations where the drive is.
   Eigen::VectorXd r = J_r.col(n) - before.col(n);
   Eigen::Index column = 0;
   for (const int v : now.variables) {
-    const auto x = tree_.x(v);
+    const Eigen::VectorXd x = moved(v);
     r += dJ.middleCols(column, x.size()) * x;
     column += x.size();
   }
@@ -226,9 +232,30 @@ std::vector<int> IncrementalSmoother::likelyNext() const {
   return last;
 }
 
+/// One of Gauss and Newton, shorter where that is no step downhill.
 bool IncrementalSmoother::step(const std::vector<int>& last) {
   if (!tree_.update(last)) return false;
-  takeSolution();
+  std::vector<int> variables = tree_.moved();
+  if (behind_) {
+    variables.resize(number_.size());
+    std::iota(variables.begin(), variables.end(), 0);
+  }
+  behind_ = false;
+  std::vector<Eigen::VectorXd> before;
+  double largest = 0.0;
+  for (const int v : variables) {
+    before.push_back(moved(v));
+    largest = std::max(largest, (tree_.x(v) - before.back()).lpNorm<Eigen::Infinity>());
+  }
+  const bool checked = largest > kLarge;
+  const double cost_before = checked ? cost() : 0.0;
+  for (const int v : variables) place(v, tree_.x(v));
+  if (!checked) return true;
+  for (double share = 0.5; !(cost() <= cost_before) && share > std::exp2(-kHalvings); share *= 0.5) {
+    behind_ = true;
+    for (std::size_t i = 0; i < variables.size(); ++i)
+      place(variables[i], before[i] + share * (tree_.x(variables[i]) - before[i]));
+  }
   return true;
 }
 
@@ -243,7 +270,8 @@ bool IncrementalSmoother::update() {
     for (int i = 0; i < kMostSteps && off; ++i) {
       if (!step(last)) return false;
       off = false;
-      for (std::size_t k = first; k < poses_.size(); ++k) off |= relineariseAt(k);
+      for (std::size_t k = behind_ ? 0 : first; k < poses_.size(); ++k) off |= relineariseAt(k);
+      off |= behind_;
     }
     bool changed = false;
     for (std::size_t k = first; k < poses_.size(); ++k) changed |= gateAt(k);
@@ -252,18 +280,39 @@ bool IncrementalSmoother::update() {
   return true;
 }
 
-void IncrementalSmoother::takeSolution() {
-  for (const int v : tree_.moved()) {
-    const std::size_t i = number_[static_cast<std::size_t>(v)];
-    if (v == sensor_) {
-      drive_.sensor->errors = SensorErrors::of(tree_.x(v));
-    } else if (tree_.x(v).size() == 3) {
-      const Eigen::Vector3d pose = pose_bases_[i] + tree_.x(v);
-      drive_.T_world_robot[i] = {pose(0), pose(1), wrapAngle(pose(2))};
-    } else {
-      drive_.points_world[i] = point_bases_[i] + tree_.x(v);
-    }
+Eigen::VectorXd IncrementalSmoother::moved(int variable) const {
+  const std::size_t i = number_[static_cast<std::size_t>(variable)];
+  const auto size = tree_.x(variable).size();
+  if (variable == sensor_) return drive_.sensor->errors.vector();
+  if (size == 2) return drive_.points_world[i] - point_bases_[i];
+  Eigen::Vector3d moved = drive_.T_world_robot[i].vector() - pose_bases_[i];
+  moved(2) = wrapAngle(moved(2));
+  return moved;
+}
+
+void IncrementalSmoother::place(int variable, const Eigen::VectorXd& moved) {
+  const std::size_t i = number_[static_cast<std::size_t>(variable)];
+  if (variable == sensor_) {
+    drive_.sensor->errors = SensorErrors::of(moved);
+  } else if (moved.size() == 2) {
+    drive_.points_world[i] = point_bases_[i] + moved;
+  } else {
+    const Eigen::Vector3d pose = pose_bases_[i] + moved;
+    drive_.T_world_robot[i] = {pose(0), pose(1), wrapAngle(pose(2))};
   }
+}
+
+double IncrementalSmoother::cost() const {
+  double cost = 0.0;
+  for (std::size_t k = 1; k < poses_.size(); ++k) cost += motionDistance2(drive_, k);
+  for (const Drive::Sighting& sighting : drive_.sightings)
+    if (sighting.used)
+      cost += huberLoss(distance2(drive_, sighting), sighting.measurement.z.size());
+  for (const Drive::Depth& depth : drive_.depths) {
+    const DepthTerm term = depthTerm(drive_, depth);
+    cost += term.residual * term.information * term.residual;
+  }
+  return cost;
 }
 
 std::size_t IncrementalSmoother::unused() const {

@@ -52,7 +52,10 @@ class IncrementalSmoother {
   void sweep();
   bool step(const std::vector<int>& last);
   std::vector<int> likelyNext() const;
-  void takeSolution();
+  /// What is sought, as what it has moved by from where it started.
+  Eigen::VectorXd moved(int variable) const;
+  void place(int variable, const Eigen::VectorXd& moved);
+  double cost() const;
 
   double gate_probability_;
   Drive drive_;
@@ -70,6 +73,7 @@ class IncrementalSmoother {
   std::vector<Terms> terms_;  ///< of each pose, but for its motion
   std::size_t updated_ = 0;   ///< poses at the last update
   std::size_t swept_ = 0;
+  bool behind_ = false;  ///< not where the tree's solution is: a step was cut short
 };
 
 }  // namespace colonnade
