@@ -16,7 +16,7 @@ namespace colonnade {
 namespace {
 
 constexpr int kMostSteps = 20;
-constexpr int kMostGatings = 2;
+constexpr int kMostGatings = 3;
 /// Poses before the new ones that are looked at in every step, and terms elsewhere at each update.
 constexpr std::size_t kRecent = 30, kSwept = 1500;
 /// A term is linearised again when it is off by more than this from what its linearisation says, in
@@ -207,15 +207,17 @@ bool IncrementalSmoother::gateAt(std::size_t pose) {
   return any;
 }
 
-void IncrementalSmoother::sweep() {
-  std::size_t looked_at = 0;
-  for (std::size_t k = 0; k < updated_ && looked_at < kSwept; ++k) {
-    if (swept_ >= updated_) swept_ = 0;
-    relineariseAt(swept_);
-    gateAt(swept_);
-    looked_at += 1 + terms_[swept_].sightings.size();
-    ++swept_;
+std::vector<std::size_t> IncrementalSmoother::sweep() {
+  std::vector<std::size_t> poses;
+  const std::size_t recent = updated_ > kRecent ? updated_ - kRecent : 0;
+  for (std::size_t terms = 0; poses.size() < recent && terms < kSwept; ++swept_) {
+    if (swept_ >= recent) swept_ = 0;
+    poses.push_back(swept_);
+    terms += 1 + terms_[swept_].sightings.size();
   }
+  for (std::size_t k = recent; k < poses_.size(); ++k) poses.push_back(k);
+  updated_ = poses_.size();
+  return poses;
 }
 
 /// The sensor, the last pose and the points it and those before it saw.
@@ -261,21 +263,21 @@ bool IncrementalSmoother::step(const std::vector<int>& last) {
 
 bool IncrementalSmoother::update() {
   if (poses_.size() < 2) return false;
-  sweep();
+  const std::vector<std::size_t> poses = sweep();
   const std::vector<int> last = likelyNext();
-  const std::size_t first = updated_ > kRecent ? updated_ - kRecent : 0;
-  updated_ = poses_.size();
+  const auto anyOf = [&](bool (IncrementalSmoother::*changed)(std::size_t)) {
+    bool any = false;
+    for (const std::size_t k : poses) any |= (this->*changed)(k);
+    return any;
+  };
+  anyOf(&IncrementalSmoother::relineariseAt);
   for (int gating = 0; gating < kMostGatings; ++gating) {
     bool off = true;
     for (int i = 0; i < kMostSteps && off; ++i) {
       if (!step(last)) return false;
-      off = false;
-      for (std::size_t k = behind_ ? 0 : first; k < poses_.size(); ++k) off |= relineariseAt(k);
-      off |= behind_;
+      off = anyOf(&IncrementalSmoother::relineariseAt) || behind_;
     }
-    bool changed = false;
-    for (std::size_t k = first; k < poses_.size(); ++k) changed |= gateAt(k);
-    if (!changed) break;
+    if (gating + 1 < kMostGatings && !anyOf(&IncrementalSmoother::gateAt)) break;
   }
   return true;
 }

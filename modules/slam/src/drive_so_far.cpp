@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <utility>
 
 #include "colonnade/base/rigid_fit.hpp"
@@ -74,6 +76,17 @@ void DriveSoFar::catchUp(const DriveRecord& record, const RangeBearingEstimator&
   const auto sighted = static_cast<std::size_t>(
       std::count_if(sighted_.begin(), sighted_.end(), [](const auto& s) { return s.has_value(); }));
   is_smoothed_ = sighted > 0 && smoother_->update() && 2 * smoother_->unused() < sighted;
+  if (getenv("CMP")) {
+    Drive batch = smoother_->drive();
+    std::vector<std::size_t> idx; Drive b2 = batch; b2.sightings.clear();
+    for (const auto& s2 : sighted_) if (s2) b2.sightings.push_back(batch.sightings[s2->sighting]);
+    Drive b0 = b2;
+    const Smoothing how = smoothOn(b2, options.known_gate_probability);
+    double c0 = 0; std::size_t un = 0; for (auto& x : b0.sightings) un += !x.used;
+    const Pose2 d = b0.T_world_robot.back().inverse() * b2.T_world_robot.back();
+    std::printf("CMP %.1f inc cost %.2f unused %zu batch cost %.2f unused %zu steps %d pose diff %.3f %.3f %.2f deg\n", record.stamps_s.back()-record.stamps_s.front(), smoother_->cost(), un, how.cost, how.unused, how.steps, d.x, d.y, d.phi*57.3);
+    (void)c0;
+  }
   if (is_smoothed_) return takeResult(estimator, options);
   stop();
   followFilter(estimator);

@@ -37,6 +37,8 @@ class IncrementalSmoother {
   /// Of (x, y, phi) of the last pose in the axes of the world, given the first. After update().
   Eigen::Matrix3d lastPoseCovariance() const { return tree_.covarianceOfLast(); }
 
+  double cost() const;
+
  private:
   LinearFactor motionFactor(std::size_t pose) const;
   LinearFactor sightingFactor(std::size_t sighting) const;
@@ -48,14 +50,14 @@ class IncrementalSmoother {
   /// out.
   bool relineariseAt(std::size_t pose);
   bool gateAt(std::size_t pose);
-  /// Of terms long settled, as many as time allows.
-  void sweep();
+  /// Poses to look at this time: the new ones, some before them, and of the others as many as time
+  /// allows, other ones each time.
+  std::vector<std::size_t> sweep();
   bool step(const std::vector<int>& last);
   std::vector<int> likelyNext() const;
   /// What is sought, as what it has moved by from where it started.
   Eigen::VectorXd moved(int variable) const;
   void place(int variable, const Eigen::VectorXd& moved);
-  double cost() const;
 
   double gate_probability_;
   Drive drive_;
