@@ -55,7 +55,7 @@ void BayesTree::touch(const LinearFactor& factor) {
 }
 
 bool BayesTree::update(std::span<const int> last) {
-  if (!last.empty()) root_ = last.back();
+  roots_.assign(last.end() - static_cast<std::ptrdiff_t>(std::min<std::size_t>(last.size(), 2)), last.end());
   const std::vector<int> orphans = takeTop();
   putInOrder(orphans, last);
   assign(orphans);
@@ -279,8 +279,15 @@ Eigen::Map<const Eigen::VectorXd> BayesTree::x(int variable) const {
 }
 
 Eigen::MatrixXd BayesTree::covarianceOfLast() const {
-  const Node& root = nodes_[index(root_)];
-  const Eigen::MatrixXd L = root.L;
+  Eigen::Index rows = 0;
+  for (const int v : roots_) rows += nodes_[index(v)].size;
+  Eigen::MatrixXd L = Eigen::MatrixXd::Zero(rows, rows);
+  Eigen::Index at = 0;
+  for (const int v : roots_) {
+    const Node& root = nodes_[index(v)];
+    L.block(at, at, root.L.rows(), root.size) = root.L;
+    at += root.size;
+  }
   return (L * L.transpose()).inverse();
 }
 

@@ -3,6 +3,7 @@
 #include "colonnade/filter/incremental_smoother.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -10,7 +11,7 @@
 
 #include "colonnade/base/angle.hpp"
 #include "colonnade/filter/gate.hpp"
-#include "drive_terms.hpp"
+#include "normal_equations.hpp"
 
 namespace colonnade {
 namespace {
@@ -27,6 +28,18 @@ constexpr double kOff = 0.01;
 /// help.
 constexpr double kLarge = 0.1;
 constexpr int kHalvings = 8;
+
+/// The pose that is held stays within this.
+constexpr double kHeldSigma = 1e-4;  ///< m and rad
+/// Poses to either side of one to be held whose sightings count for it.
+constexpr std::size_t kAround = 10;
+constexpr std::size_t kFirstHold = 40;  ///< poses
+
+LinearFactor holdOf(int pose, const Eigen::Vector3d& where) {
+  Eigen::MatrixXd J_r(3, 4);
+  J_r << Eigen::Matrix3d::Identity(), -where;
+  return {{pose}, J_r / kHeldSigma};
+}
 
 /// U with U^T U = information.
 Eigen::MatrixXd rootOf(const Eigen::MatrixXd& information) {
@@ -51,15 +64,17 @@ IncrementalSmoother::IncrementalSmoother(double gate_probability,
 }
 
 void IncrementalSmoother::addPose(const Pose2& T_world_robot, const Drive::Motion& motion) {
-  const bool first = poses_.empty();
   drive_.T_world_robot.push_back(T_world_robot);
   drive_.motions.push_back(motion);
   pose_bases_.push_back(T_world_robot.vector());
-  poses_.push_back(first ? -1 : tree_.addVariable(3));
-  if (!first) number_.push_back(poses_.size() - 1);
+  poses_.push_back(tree_.addVariable(3));
+  number_.push_back(poses_.size() - 1);
   terms_.emplace_back();
   motions_.push_back(-1);
-  if (!first) set(motions_.back(), motionFactor(poses_.size() - 1));
+  if (poses_.size() == 1)
+    hold_ = tree_.addFactor(holdOf(poses_[0], Eigen::Vector3d::Zero()));
+  else
+    set(motions_.back(), motionFactor(poses_.size() - 1));
 }
 
 std::size_t IncrementalSmoother::addPoint(const Eigen::Vector2d& p_world) {
@@ -100,17 +115,11 @@ void IncrementalSmoother::addDepth(const Drive::Depth& depth) {
 LinearFactor IncrementalSmoother::motionFactor(std::size_t pose) const {
   const MotionTerm term = motionTerm(drive_, pose);
   const Eigen::Matrix3d root = rootOf(term.information);
-  const bool from_first = poses_[pose - 1] < 0;
-  LinearFactor factor;
-  if (!from_first) factor.variables.push_back(poses_[pose - 1]);
-  factor.variables.push_back(poses_[pose]);
-  factor.J_r.resize(3, from_first ? 4 : 7);
-  Eigen::Vector3d r = term.residual - term.J_after * moved(poses_[pose]);
-  if (!from_first) {
-    r -= term.J_before * moved(poses_[pose - 1]);
-    factor.J_r.leftCols<3>() = root * term.J_before;
-  }
-  factor.J_r.rightCols<4>() << root * term.J_after, root * r;
+  const int before = poses_[pose - 1], after = poses_[pose];
+  LinearFactor factor{{before, after}, Eigen::MatrixXd(3, 7)};
+  const Eigen::Vector3d r =
+      term.residual - term.J_before * moved(before) - term.J_after * moved(after);
+  factor.J_r << root * term.J_before, root * term.J_after, root * r;
   return factor;
 }
 
@@ -131,7 +140,7 @@ LinearFactor IncrementalSmoother::sightingFactor(std::size_t number) const {
     J_r.middleCols(column, J.cols()) = root * J;
     column += J.cols();
   };
-  if (poses_[sighting.pose] >= 0) add(poses_[sighting.pose], term.J_pose);
+  add(poses_[sighting.pose], term.J_pose);
   add(points_[sighting.point], term.J_point);
   if (sensor_) add(*sensor_, term.J_sensor);
   J_r.col(column) = root * r;
@@ -144,14 +153,10 @@ LinearFactor IncrementalSmoother::depthFactor(std::size_t number) const {
   const DepthTerm term = depthTerm(drive_, depth);
   const double root = std::sqrt(term.information);
   const int pose = poses_[depth.pose], point = points_[depth.point];
-  LinearFactor factor;
-  if (pose >= 0) factor.variables.push_back(pose);
-  factor.variables.push_back(point);
-  double r = term.residual - term.J_point * moved(point);
-  if (pose >= 0) r -= term.J_pose * moved(pose);
-  factor.J_r.resize(1, pose >= 0 ? 6 : 3);
-  if (pose >= 0) factor.J_r.leftCols<3>() = root * term.J_pose;
-  factor.J_r.rightCols<3>() << root * term.J_point, root * r;
+  LinearFactor factor{{pose, point}, Eigen::MatrixXd(1, 6)};
+  const double r =
+      term.residual - term.J_point.dot(moved(point)) - term.J_pose.dot(moved(pose));
+  factor.J_r << root * term.J_pose, root * term.J_point, root * r;
   return factor;
 }
 
@@ -230,8 +235,32 @@ std::vector<int> IncrementalSmoother::likelyNext() const {
         last.push_back(point);
   std::reverse(last.begin(), last.end());
   if (sensor_) last.push_back(*sensor_);
+  last.push_back(poses_.front());
   last.push_back(poses_.back());
   return last;
+}
+
+/// Which pose stays where it is changes nothing of what is known. But terms of a long drive that are
+/// linearised at different times agree best where most of it hardly turns: not about the start,
+/// past which little was read.
+void IncrementalSmoother::holdAmongReadings() {
+  if (poses_.size() < std::max(kFirstHold, 2 * held_since_)) return;
+  held_since_ = poses_.size();
+  std::size_t most = 0, best = held_;
+  std::size_t around = 0;
+  const auto count = [&](std::size_t k) { return terms_[k].sightings.size(); };
+  for (std::size_t k = 0; k < poses_.size(); ++k) {
+    around += count(k);
+    if (k >= 2 * kAround + 1) around -= count(k - 2 * kAround - 1);
+    if (k >= 2 * kAround && around > most) {
+      most = around;
+      best = k - kAround;
+    }
+  }
+  if (best == held_) return;
+  tree_.setFactor(hold_, {});
+  held_ = best;
+  hold_ = tree_.addFactor(holdOf(poses_[held_], moved(poses_[held_])));
 }
 
 /// One of Gauss and Newton, shorter where that is no step downhill.
@@ -263,6 +292,7 @@ bool IncrementalSmoother::step(const std::vector<int>& last) {
 
 bool IncrementalSmoother::update() {
   if (poses_.size() < 2) return false;
+  holdAmongReadings();
   const std::vector<std::size_t> poses = sweep();
   const std::vector<int> last = likelyNext();
   const auto anyOf = [&](bool (IncrementalSmoother::*changed)(std::size_t)) {
@@ -315,6 +345,16 @@ double IncrementalSmoother::cost() const {
     cost += term.residual * term.information * term.residual;
   }
   return cost;
+}
+
+Eigen::Matrix3d IncrementalSmoother::lastPoseCovariance() const {
+  const Eigen::MatrixXd P = tree_.covarianceOfLast();
+  // Of xi: the first pose is given when everything turns with it.
+  const Eigen::Matrix3d first = liftOf(drive_.T_world_robot.front()).inverse();
+  const Eigen::Matrix3d lift = liftOf(drive_.T_world_robot.back());
+  Eigen::Matrix<double, 3, 6> J;
+  J << -lift * first, Eigen::Matrix3d::Identity();
+  return J * P * J.transpose();
 }
 
 std::size_t IncrementalSmoother::unused() const {

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <utility>
 
 #include "colonnade/base/rigid_fit.hpp"
@@ -76,17 +74,6 @@ void DriveSoFar::catchUp(const DriveRecord& record, const RangeBearingEstimator&
   const auto sighted = static_cast<std::size_t>(
       std::count_if(sighted_.begin(), sighted_.end(), [](const auto& s) { return s.has_value(); }));
   is_smoothed_ = sighted > 0 && smoother_->update() && 2 * smoother_->unused() < sighted;
-  if (getenv("CMP")) {
-    Drive batch = smoother_->drive();
-    std::vector<std::size_t> idx; Drive b2 = batch; b2.sightings.clear();
-    for (const auto& s2 : sighted_) if (s2) b2.sightings.push_back(batch.sightings[s2->sighting]);
-    Drive b0 = b2;
-    const Smoothing how = smoothOn(b2, options.known_gate_probability);
-    double c0 = 0; std::size_t un = 0; for (auto& x : b0.sightings) un += !x.used;
-    const Pose2 d = b0.T_world_robot.back().inverse() * b2.T_world_robot.back();
-    std::printf("CMP %.1f inc cost %.2f unused %zu batch cost %.2f unused %zu steps %d pose diff %.3f %.3f %.2f deg\n", record.stamps_s.back()-record.stamps_s.front(), smoother_->cost(), un, how.cost, how.unused, how.steps, d.x, d.y, d.phi*57.3);
-    (void)c0;
-  }
   if (is_smoothed_) return takeResult(estimator, options);
   stop();
   followFilter(estimator);
@@ -189,7 +176,9 @@ void DriveSoFar::forget(const std::vector<LandmarkId>& landmarks) {
 void DriveSoFar::takeResult(const RangeBearingEstimator& estimator,
                             const RangeBearingOptions& options) {
   const Drive& drive = smoother_->drive();
-  T_world_drive_ = options.world_with_map ? asSaid(drive.T_world_robot) : Pose2{};
+  const Pose2& T_drive_first = drive.T_world_robot.front();
+  T_world_drive_ = options.world_with_map ? asSaid(drive.T_world_robot)
+                                          : said_.front() * T_drive_first.inverse();
   const Eigen::Matrix3d covariance = smoother_->lastPoseCovariance();
   now_.T_world_robot = T_world_drive_ * drive.T_world_robot.back();
   now_.covariance = turned(covariance, T_world_drive_);

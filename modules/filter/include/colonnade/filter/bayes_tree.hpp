@@ -36,7 +36,7 @@ class BayesTree {
   Eigen::Map<const Eigen::VectorXd> x(int variable) const;
   /// Variables whose x the last update changed.
   const std::vector<int>& moved() const { return moved_; }
-  /// Of the last of `last`.
+  /// Of the two last of `last`, which have to hang together, or of the last where it is alone.
   Eigen::MatrixXd covarianceOfLast() const;
   /// Variables eliminated by the last update.
   std::size_t eliminated() const { return order_.size(); }
@@ -74,7 +74,7 @@ class BayesTree {
   std::vector<LinearFactor> factors_;
   std::vector<double> x_;
   std::vector<int> touched_;
-  int root_ = -1;
+  std::vector<int> roots_;  ///< the last two
   std::vector<int> moved_;
   // While something is eliminated:
   std::vector<int> order_;

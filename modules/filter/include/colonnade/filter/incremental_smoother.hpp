@@ -35,7 +35,7 @@ class IncrementalSmoother {
   const Drive& drive() const { return drive_; }
   std::size_t unused() const;
   /// Of (x, y, phi) of the last pose in the axes of the world, given the first. After update().
-  Eigen::Matrix3d lastPoseCovariance() const { return tree_.covarianceOfLast(); }
+  Eigen::Matrix3d lastPoseCovariance() const;
 
   double cost() const;
 
@@ -55,6 +55,7 @@ class IncrementalSmoother {
   std::vector<std::size_t> sweep();
   bool step(const std::vector<int>& last);
   std::vector<int> likelyNext() const;
+  void holdAmongReadings();
   /// What is sought, as what it has moved by from where it started.
   Eigen::VectorXd moved(int variable) const;
   void place(int variable, const Eigen::VectorXd& moved);
@@ -64,7 +65,7 @@ class IncrementalSmoother {
   std::vector<bool> removed_;  ///< sightings
   BayesTree tree_;
   std::optional<int> sensor_;
-  std::vector<int> poses_, points_;  ///< variables; -1: the pose that is given
+  std::vector<int> poses_, points_;  ///< variables
   std::vector<Eigen::Vector3d> pose_bases_;
   std::vector<Eigen::Vector2d> point_bases_;
   std::vector<std::size_t> number_;  ///< of the pose or the point a variable is
@@ -75,6 +76,9 @@ class IncrementalSmoother {
   std::vector<Terms> terms_;  ///< of each pose, but for its motion
   std::size_t updated_ = 0;   ///< poses at the last update
   std::size_t swept_ = 0;
+  std::size_t held_ = 0;        ///< the pose that stays where it is
+  std::size_t held_since_ = 0;  ///< poses by then
+  int hold_ = -1;               ///< factor
   bool behind_ = false;  ///< not where the tree's solution is: a step was cut short
 };
 
