@@ -104,8 +104,8 @@ double motionDistance2(const Drive& drive, std::size_t pose) {
 }
 
 double distance2(const Drive& drive, const Drive::Sighting& sighting) {
-  const Eigen::LLT<Eigen::MatrixXd> R(noiseOf(sighting.measurement));
-  const Eigen::VectorXd nu = innovationOf(sighting.measurement, predicted(drive, sighting).z);
+  const Eigen::LLT<MeasurementCovariance> R(noiseOf(sighting.measurement));
+  const MeasurementVector nu = innovationOf(sighting.measurement, predicted(drive, sighting).z);
   const double distance2 = R.info() == Eigen::Success ? nu.dot(R.solve(nu)) : HUGE_VAL;
   return std::isfinite(distance2) ? distance2 : std::numeric_limits<double>::infinity();
 }

@@ -21,11 +21,11 @@ struct MotionTerm {
 MotionTerm motionTerm(const Drive& drive, std::size_t pose);
 
 struct SightingTerm {
-  Eigen::VectorXd residual;
+  MeasurementVector residual;
   RobotJacobian J_pose;
   BlockJacobian J_point;
   SensorJacobian J_sensor;  ///< if the drive has a sensor
-  Eigen::MatrixXd information;
+  MeasurementCovariance information;
 };
 SightingTerm sightingTerm(const Drive& drive, const Drive::Sighting& sighting);
 

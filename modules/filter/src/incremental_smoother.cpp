@@ -16,7 +16,7 @@
 namespace colonnade {
 namespace {
 
-constexpr int kMostSteps = 20;
+constexpr int kMostSteps = 4;
 constexpr int kMostGatings = 3;
 /// Poses before the new ones that are looked at in every step, and terms elsewhere at each update.
 constexpr std::size_t kRecent = 30, kSwept = 1500;
@@ -42,8 +42,9 @@ LinearFactor holdOf(int pose, const Eigen::Vector3d& where) {
 }
 
 /// U with U^T U = information.
-Eigen::MatrixXd rootOf(const Eigen::MatrixXd& information) {
-  return Eigen::LLT<Eigen::MatrixXd>(information).matrixU();
+template <class Matrix>
+Matrix rootOf(const Matrix& information) {
+  return Eigen::LLT<Matrix>(information).matrixU();
 }
 
 }  // namespace
@@ -127,17 +128,17 @@ LinearFactor IncrementalSmoother::sightingFactor(std::size_t number) const {
   const Drive::Sighting& sighting = drive_.sightings[number];
   const SightingTerm term = sightingTerm(drive_, sighting);
   const double distance2 = term.residual.dot(term.information * term.residual);
-  const Eigen::MatrixXd root =
+  const MeasurementCovariance root =
       std::sqrt(huberWeight(distance2, term.residual.size())) * rootOf(term.information);
   LinearFactor factor;
   Eigen::MatrixXd& J_r = factor.J_r;
   J_r.resize(term.residual.size(), 3 + 2 + SensorErrors::kSize + 1);
-  Eigen::VectorXd r = term.residual;
+  MeasurementVector r = term.residual;
   Eigen::Index column = 0;
   const auto add = [&](int variable, const auto& J) {
     factor.variables.push_back(variable);
-    r -= J * moved(variable);
-    J_r.middleCols(column, J.cols()) = root * J;
+    r -= J.lazyProduct(moved(variable));
+    J_r.middleCols(column, J.cols()) = root.lazyProduct(J);
     column += J.cols();
   };
   add(poses_[sighting.pose], term.J_pose);
@@ -170,13 +171,14 @@ void IncrementalSmoother::set(int& factor, LinearFactor to) {
 bool IncrementalSmoother::relinearise(int factor, LinearFactor now) {
   const Eigen::MatrixXd &before = tree_.factor(factor).J_r, &J_r = now.J_r;
   const Eigen::Index n = J_r.cols() - 1;
-  const Eigen::MatrixXd dJ = J_r.leftCols(n) - before.leftCols(n);
+  using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 10>;
+  const Small dJ = J_r.leftCols(n) - before.leftCols(n);
   // Both linearisations where the drive is.
-  Eigen::VectorXd r = J_r.col(n) - before.col(n);
+  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1> r = J_r.col(n) - before.col(n);
   Eigen::Index column = 0;
   for (const int v : now.variables) {
-    const Eigen::VectorXd x = moved(v);
-    r += dJ.middleCols(column, x.size()) * x;
+    const Moved x = moved(v);
+    r += dJ.middleCols(column, x.size()).lazyProduct(x);
     column += x.size();
   }
   if (r.squaredNorm() < kOff * kOff &&
@@ -272,7 +274,8 @@ bool IncrementalSmoother::step(const std::vector<int>& last) {
     std::iota(variables.begin(), variables.end(), 0);
   }
   behind_ = false;
-  std::vector<Eigen::VectorXd> before;
+  std::vector<Moved> before;
+  before.reserve(variables.size());
   double largest = 0.0;
   for (const int v : variables) {
     before.push_back(moved(v));
@@ -312,7 +315,7 @@ bool IncrementalSmoother::update() {
   return true;
 }
 
-Eigen::VectorXd IncrementalSmoother::moved(int variable) const {
+IncrementalSmoother::Moved IncrementalSmoother::moved(int variable) const {
   const std::size_t i = number_[static_cast<std::size_t>(variable)];
   const auto size = tree_.x(variable).size();
   if (variable == sensor_) return drive_.sensor->errors.vector();
@@ -322,7 +325,7 @@ Eigen::VectorXd IncrementalSmoother::moved(int variable) const {
   return moved;
 }
 
-void IncrementalSmoother::place(int variable, const Eigen::VectorXd& moved) {
+void IncrementalSmoother::place(int variable, const Moved& moved) {
   const std::size_t i = number_[static_cast<std::size_t>(variable)];
   if (variable == sensor_) {
     drive_.sensor->errors = SensorErrors::of(moved);

@@ -98,8 +98,8 @@ void NormalEquations::addSighting(const Drive& drive, const Drive::Sighting& sig
   const SightingTerm term = sightingTerm(drive, sighting);
   const double distance2 = term.residual.dot(term.information * term.residual);
   cost_ += huberLoss(distance2, term.residual.size());
-  const Eigen::MatrixXd weight = huberWeight(distance2, term.residual.size()) * term.information;
-  const Eigen::MatrixXd J_pose = term.J_pose * liftOf(drive.T_world_robot[sighting.pose]);
+  const Small weight = huberWeight(distance2, term.residual.size()) * term.information;
+  const Small J_pose = term.J_pose * liftOf(drive.T_world_robot[sighting.pose]);
   addPair(poseAt(sighting.pose), pointAt(sighting.point), J_pose, term.J_point, weight,
           term.residual);
   if (!drive.sensor) return;

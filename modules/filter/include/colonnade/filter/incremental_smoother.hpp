@@ -40,6 +40,7 @@ class IncrementalSmoother {
   double cost() const;
 
  private:
+  using Moved = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, SensorErrors::kSize, 1>;
   LinearFactor motionFactor(std::size_t pose) const;
   LinearFactor sightingFactor(std::size_t sighting) const;
   LinearFactor depthFactor(std::size_t depth) const;
@@ -57,8 +58,8 @@ class IncrementalSmoother {
   std::vector<int> likelyNext() const;
   void holdAmongReadings();
   /// What is sought, as what it has moved by from where it started.
-  Eigen::VectorXd moved(int variable) const;
-  void place(int variable, const Eigen::VectorXd& moved);
+  Moved moved(int variable) const;
+  void place(int variable, const Moved& moved);
 
   double gate_probability_;
   Drive drive_;
