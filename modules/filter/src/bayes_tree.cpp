@@ -13,8 +13,6 @@
 namespace colonnade {
 namespace {
 
-/// A variable that would move by less stays where it is, m and rad, and so does what is below.
-constexpr double kStill = 1e-5;
 /// J^T J of a factor of three variables and its right side without an allocation.
 using Gram = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 11, 11>;
 
@@ -61,14 +59,10 @@ bool BayesTree::update(std::span<const int> last) {
   assign(orphans);
   bool good = true;
   for (const int v : order_) good = good && eliminate(v);
-  if (!good) {
+  if (good)
+    ++solution_;
+  else
     touched_ = order_;
-  } else {
-    moved_.clear();
-    for (auto v = order_.rbegin(); v != order_.rend(); ++v)
-      if (solve(*v)) moved_.push_back(*v);
-    solveBelow(orphans);
-  }
   for (const int v : order_) position_[index(v)] = -1;
   return good;
 }
@@ -237,45 +231,26 @@ bool BayesTree::eliminate(int variable) {
   return true;
 }
 
-bool BayesTree::solve(int variable) {
-  const Node& here = node(variable);
+Eigen::Map<const Eigen::VectorXd> BayesTree::x(int variable) {
+  asked_.clear();
+  for (int v = variable; v >= 0 && node(v).done && node(v).solved != solution_; v = node(v).parent)
+    asked_.push_back(v);
+  for (auto v = asked_.rbegin(); v != asked_.rend(); ++v) solve(node(*v));
+  return {x_.data() + node(variable).at, node(variable).size};
+}
+
+void BayesTree::solve(Node& here) {
   Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 5, 1> x = here.y;
   Eigen::Index row = here.size;
   for (const int v : here.separator) {
     const Node& above = node(v);
-    x -= here.L.middleRows(row, above.size).transpose().lazyProduct(this->x(v));
+    const Eigen::Map<const Eigen::VectorXd> x_above(x_.data() + above.at, above.size);
+    x -= here.L.middleRows(row, above.size).transpose().lazyProduct(x_above);
     row += above.size;
   }
   here.L.topRows(here.size).triangularView<Eigen::Lower>().transpose().solveInPlace(x);
-  Eigen::Map<Eigen::VectorXd> stored(x_.data() + here.at, here.size);
-  if ((x - stored).lpNorm<Eigen::Infinity>() < kStill) return false;
-  stored = x;
-  return true;
-}
-
-/// What stayed eliminated, as far as what is above has moved.
-void BayesTree::solveBelow(const std::vector<int>& orphans) {
-  for (const int v : moved_) row_[index(v)] = 0;
-  std::vector<int> left = orphans;
-  while (!left.empty()) {
-    const int v = left.back();
-    left.pop_back();
-    const auto& separator = node(v).separator;
-    if (std::none_of(separator.begin(), separator.end(),
-                     [&](int u) { return row_[index(u)] >= 0; }))
-      continue;
-    if (solve(v)) {
-      row_[index(v)] = 0;
-      moved_.push_back(v);
-    }
-    left.insert(left.end(), node(v).children.begin(), node(v).children.end());
-  }
-  for (const int v : moved_) row_[index(v)] = -1;
-}
-
-Eigen::Map<const Eigen::VectorXd> BayesTree::x(int variable) const {
-  const Node& here = nodes_[index(variable)];
-  return {x_.data() + here.at, here.size};
+  std::copy(x.begin(), x.end(), x_.begin() + here.at);
+  here.solved = solution_;
 }
 
 Eigen::MatrixXd BayesTree::covarianceOfLast() const {

@@ -6,7 +6,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "colonnade/base/angle.hpp"
@@ -16,7 +15,7 @@
 namespace colonnade {
 namespace {
 
-constexpr int kMostSteps = 4;
+constexpr int kMostSteps = 10;
 constexpr int kMostGatings = 3;
 /// Poses before the new ones that are looked at in every step, and terms elsewhere at each update.
 constexpr std::size_t kRecent = 30, kSwept = 1500;
@@ -56,6 +55,7 @@ IncrementalSmoother::IncrementalSmoother(double gate_probability,
   if (!sensor) return;
   sensor_ = tree_.addVariable(SensorErrors::kSize);
   number_.push_back(0);
+  is_point_.push_back(false);
   Eigen::MatrixXd J_r(SensorErrors::kSize, SensorErrors::kSize + 1);
   const SensorErrors::Vector root =
       sensor->sigmas.vector().cwiseMax(kKnownSigma).cwiseInverse();
@@ -70,6 +70,7 @@ void IncrementalSmoother::addPose(const Pose2& T_world_robot, const Drive::Motio
   pose_bases_.push_back(T_world_robot.vector());
   poses_.push_back(tree_.addVariable(3));
   number_.push_back(poses_.size() - 1);
+  is_point_.push_back(false);
   terms_.emplace_back();
   motions_.push_back(-1);
   if (poses_.size() == 1)
@@ -83,6 +84,7 @@ std::size_t IncrementalSmoother::addPoint(const Eigen::Vector2d& p_world) {
   point_bases_.push_back(p_world);
   points_.push_back(tree_.addVariable(2));
   number_.push_back(points_.size() - 1);
+  is_point_.push_back(true);
   Eigen::MatrixXd J_r = Eigen::MatrixXd::Zero(2, 3);
   J_r.leftCols<2>().diagonal().setConstant(1.0 / kLooseSigma_m);
   tree_.addFactor({{points_.back()}, J_r});
@@ -265,31 +267,51 @@ void IncrementalSmoother::holdAmongReadings() {
   hold_ = tree_.addFactor(holdOf(poses_[held_], moved(poses_[held_])));
 }
 
-/// One of Gauss and Newton, shorter where that is no step downhill.
-bool IncrementalSmoother::step(const std::vector<int>& last) {
-  if (!tree_.update(last)) return false;
-  std::vector<int> variables = tree_.moved();
-  if (behind_) {
-    variables.resize(number_.size());
-    std::iota(variables.begin(), variables.end(), 0);
+std::vector<int> IncrementalSmoother::variablesOf(const std::vector<std::size_t>& poses) const {
+  std::vector<int> variables;
+  if (sensor_) variables.push_back(*sensor_);
+  for (const std::size_t k : poses) {
+    if (k > 0) variables.push_back(poses_[k - 1]);
+    variables.push_back(poses_[k]);
+    for (const std::size_t i : terms_[k].sightings)
+      variables.push_back(points_[drive_.sightings[i].point]);
+    for (const std::size_t i : terms_[k].depths)
+      variables.push_back(points_[drive_.depths[i].point]);
   }
-  behind_ = false;
-  std::vector<Moved> before;
+  std::sort(variables.begin(), variables.end());
+  variables.erase(std::unique(variables.begin(), variables.end()), variables.end());
+  return variables;
+}
+
+/// One of Gauss and Newton, shorter where the terms that are looked at say that a large one leads
+/// uphill.
+bool IncrementalSmoother::step(const std::vector<std::size_t>& poses,
+                               const std::vector<int>& variables) {
+  if (!tree_.update(likelyNext())) return false;
+  std::vector<Moved> before, by;
   before.reserve(variables.size());
+  by.reserve(variables.size());
   double largest = 0.0;
   for (const int v : variables) {
     before.push_back(moved(v));
-    largest = std::max(largest, (tree_.x(v) - before.back()).lpNorm<Eigen::Infinity>());
+    by.emplace_back(tree_.x(v) - before.back());
+    largest = std::max(largest, by.back().lpNorm<Eigen::Infinity>());
   }
-  const bool checked = largest > kLarge;
-  const double cost_before = checked ? cost() : 0.0;
-  for (const int v : variables) place(v, tree_.x(v));
-  if (!checked) return true;
-  for (double share = 0.5; !(cost() <= cost_before) && share > std::exp2(-kHalvings); share *= 0.5) {
-    behind_ = true;
+  const auto go = [&](double share) {
     for (std::size_t i = 0; i < variables.size(); ++i)
-      place(variables[i], before[i] + share * (tree_.x(variables[i]) - before[i]));
+      place(variables[i], before[i] + share * by[i]);
+  };
+  behind_.clear();
+  const double cost = largest > kLarge ? costOf(poses) : HUGE_VAL;
+  go(1.0);
+  if (costOf(poses) <= cost) return true;
+  for (double share = 0.5; share > std::exp2(-kHalvings); share *= 0.5) {
+    go(share);
+    if (!(costOf(poses) <= cost)) continue;
+    behind_ = variables;
+    return true;
   }
+  go(1.0);
   return true;
 }
 
@@ -297,18 +319,20 @@ bool IncrementalSmoother::update() {
   if (poses_.size() < 2) return false;
   holdAmongReadings();
   const std::vector<std::size_t> poses = sweep();
-  const std::vector<int> last = likelyNext();
+  const std::vector<int> variables = variablesOf(poses);
   const auto anyOf = [&](bool (IncrementalSmoother::*changed)(std::size_t)) {
     bool any = false;
     for (const std::size_t k : poses) any |= (this->*changed)(k);
     return any;
   };
+  for (const int v : variables)
+    if (std::find(behind_.begin(), behind_.end(), v) == behind_.end()) place(v, tree_.x(v));
   anyOf(&IncrementalSmoother::relineariseAt);
   for (int gating = 0; gating < kMostGatings; ++gating) {
     bool off = true;
     for (int i = 0; i < kMostSteps && off; ++i) {
-      if (!step(last)) return false;
-      off = anyOf(&IncrementalSmoother::relineariseAt) || behind_;
+      if (!step(poses, variables)) return false;
+      off = anyOf(&IncrementalSmoother::relineariseAt) || !behind_.empty();
     }
     if (gating + 1 < kMostGatings && !anyOf(&IncrementalSmoother::gateAt)) break;
   }
@@ -317,9 +341,8 @@ bool IncrementalSmoother::update() {
 
 IncrementalSmoother::Moved IncrementalSmoother::moved(int variable) const {
   const std::size_t i = number_[static_cast<std::size_t>(variable)];
-  const auto size = tree_.x(variable).size();
   if (variable == sensor_) return drive_.sensor->errors.vector();
-  if (size == 2) return drive_.points_world[i] - point_bases_[i];
+  if (is_point_[static_cast<std::size_t>(variable)]) return drive_.points_world[i] - point_bases_[i];
   Eigen::Vector3d moved = drive_.T_world_robot[i].vector() - pose_bases_[i];
   moved(2) = wrapAngle(moved(2));
   return moved;
@@ -337,23 +360,36 @@ void IncrementalSmoother::place(int variable, const Moved& moved) {
   }
 }
 
-double IncrementalSmoother::cost() const {
+double IncrementalSmoother::costOf(const std::vector<std::size_t>& poses) const {
   double cost = 0.0;
-  for (std::size_t k = 1; k < poses_.size(); ++k) cost += motionDistance2(drive_, k);
-  for (const Drive::Sighting& sighting : drive_.sightings)
-    if (sighting.used)
-      cost += huberLoss(distance2(drive_, sighting), sighting.measurement.z.size());
-  for (const Drive::Depth& depth : drive_.depths) {
-    const DepthTerm term = depthTerm(drive_, depth);
-    cost += term.residual * term.information * term.residual;
+  for (const std::size_t k : poses) {
+    if (k > 0) cost += motionDistance2(drive_, k);
+    for (const std::size_t i : terms_[k].sightings)
+      if (const Drive::Sighting& sighting = drive_.sightings[i]; sighting.used)
+        cost += huberLoss(distance2(drive_, sighting), sighting.measurement.z.size());
+    for (const std::size_t i : terms_[k].depths) {
+      const DepthTerm term = depthTerm(drive_, drive_.depths[i]);
+      cost += term.residual * term.information * term.residual;
+    }
   }
   return cost;
 }
 
-Eigen::Matrix3d IncrementalSmoother::lastPoseCovariance() const {
+const Pose2& IncrementalSmoother::pose(std::size_t pose) {
+  if (behind_.empty()) place(poses_[pose], tree_.x(poses_[pose]));
+  return drive_.T_world_robot[pose];
+}
+
+const Drive& IncrementalSmoother::drive() {
+  if (behind_.empty())
+    for (int v = 0; v < static_cast<int>(number_.size()); ++v) place(v, tree_.x(v));
+  return drive_;
+}
+
+Eigen::Matrix3d IncrementalSmoother::lastPoseCovariance() {
   const Eigen::MatrixXd P = tree_.covarianceOfLast();
   // Of xi: the first pose is given when everything turns with it.
-  const Eigen::Matrix3d first = liftOf(drive_.T_world_robot.front()).inverse();
+  const Eigen::Matrix3d first = liftOf(pose(0)).inverse();
   const Eigen::Matrix3d lift = liftOf(drive_.T_world_robot.back());
   Eigen::Matrix<double, 3, 6> J;
   J << -lift * first, Eigen::Matrix3d::Identity();

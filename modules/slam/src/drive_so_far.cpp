@@ -16,7 +16,7 @@ constexpr double kDoubt = 4.0;
 /// Poses agree where the robot and a point so far ahead of it do.
 constexpr double kAhead_m = 1.0;
 /// So many poses said say well enough where the world is.
-constexpr std::size_t kWitnesses = 1000;
+constexpr std::size_t kWitnesses = 500;
 /// What was taken back may be so much more than what counts before all is begun anew.
 constexpr std::size_t kTakenBack = 2000;
 
@@ -112,7 +112,7 @@ void DriveSoFar::followHistory(const std::vector<std::optional<LandmarkId>>& dec
 
 void DriveSoFar::addFrames(const DriveRecord& record) {
   const Pose2 T_drive_world = T_world_drive_.inverse();
-  for (std::size_t k = smoother_->drive().T_world_robot.size(); k < record.motions.size(); ++k)
+  for (std::size_t k = smoother_->poses(); k < record.motions.size(); ++k)
     smoother_->addPose(T_drive_world * (k < said_.size() ? said_[k] : now_.T_world_robot),
                        record.motions[k]);
 }
@@ -175,22 +175,22 @@ void DriveSoFar::forget(const std::vector<LandmarkId>& landmarks) {
 
 void DriveSoFar::takeResult(const RangeBearingEstimator& estimator,
                             const RangeBearingOptions& options) {
-  const Drive& drive = smoother_->drive();
-  const Pose2& T_drive_first = drive.T_world_robot.front();
-  T_world_drive_ = options.world_with_map ? asSaid(drive.T_world_robot)
-                                          : said_.front() * T_drive_first.inverse();
+  const Pose2 T_drive_first = smoother_->pose(0);
+  T_world_drive_ = options.world_with_map
+                       ? asSaid([&](std::size_t k) { return smoother_->pose(k); })
+                       : said_.front() * T_drive_first.inverse();
   const Eigen::Matrix3d covariance = smoother_->lastPoseCovariance();
-  now_.T_world_robot = T_world_drive_ * drive.T_world_robot.back();
+  now_.T_world_robot = T_world_drive_ * smoother_->pose(smoother_->poses() - 1);
   now_.covariance = turned(covariance, T_world_drive_);
   now_.T_world_filter = now_.T_world_robot * T_filter_robot_.inverse();
-  now_.T_world_origin = T_world_drive_ * drive.T_world_robot.front() * T_origin_first_.inverse();
+  now_.T_world_origin = T_world_drive_ * T_drive_first * T_origin_first_.inverse();
   // With bearings alone the filter does not know how sure it is.
   const double share =
       std::cbrt(covariance.determinant() / estimator.poseCovariance().determinant());
   share_ = options.bearing_only || !std::isfinite(share) ? HUGE_VAL : share;
 }
 
-std::vector<Pose2> DriveSoFar::poses() const {
+std::vector<Pose2> DriveSoFar::poses() {
   std::vector<Pose2> poses = said_;
   poses.push_back(now_.T_world_robot);
   if (!smoother_) return poses;
@@ -199,37 +199,38 @@ std::vector<Pose2> DriveSoFar::poses() const {
   return poses;
 }
 
-std::map<LandmarkId, Eigen::Vector2d> DriveSoFar::places() const {
+std::map<LandmarkId, Eigen::Vector2d> DriveSoFar::places() {
   std::map<LandmarkId, Eigen::Vector2d> places;
   if (!smoother_) return places;
-  std::vector<bool> has_readings(smoother_->drive().points_world.size(), false);
+  const auto& points_world = smoother_->drive().points_world;
+  std::vector<bool> has_readings(points_world.size(), false);
   for (std::size_t i = 0; i < sighted_.size(); ++i)
     if (isUsed(i).value_or(false)) has_readings[sighted_[i]->point] = true;
   for (const auto& [landmark, founded] : points_)
     if (has_readings[founded.point])
-      places[landmark] =
-          transform(T_world_drive_, smoother_->drive().points_world[founded.point]);
+      places[landmark] = transform(T_world_drive_, points_world[founded.point]);
   return places;
 }
 
 std::optional<bool> DriveSoFar::isUsed(std::size_t reading) const {
   if (reading >= sighted_.size() || !sighted_[reading]) return std::nullopt;
-  return smoother_->drive().sightings[sighted_[reading]->sighting].used;
+  return smoother_->isUsed(sighted_[reading]->sighting);
 }
 
-std::optional<SensorErrors> DriveSoFar::sensorErrors() const {
+std::optional<SensorErrors> DriveSoFar::sensorErrors() {
   if (!smoother_ || !smoother_->drive().sensor) return std::nullopt;
   return smoother_->drive().sensor->errors;
 }
 
-Pose2 DriveSoFar::asSaid(const std::vector<Pose2>& T_drive_robot) const {
+Pose2 DriveSoFar::asSaid(const std::function<Pose2(std::size_t)>& T_drive_robot) const {
   if (said_.empty()) return {};
   std::vector<PointPair> pairs;
   const Eigen::Vector2d ahead(kAhead_m, 0.0);
   const std::size_t stride = 1 + said_.size() / kWitnesses;
   for (std::size_t k = (said_.size() - 1) % stride; k < said_.size(); k += stride) {
-    pairs.push_back({said_[k].translation(), T_drive_robot[k].translation()});
-    pairs.push_back({transform(said_[k], ahead), transform(T_drive_robot[k], ahead)});
+    const Pose2 known = T_drive_robot(k);
+    pairs.push_back({said_[k].translation(), known.translation()});
+    pairs.push_back({transform(said_[k], ahead), transform(known, ahead)});
   }
   return rigidFit(pairs);
 }

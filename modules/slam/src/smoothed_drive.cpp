@@ -120,7 +120,7 @@ struct Prepared {
 };
 
 /// Nothing where the loaded map is of no use.
-std::optional<Prepared> prepared(const DriveRecord& record, const DriveSoFar& so_far,
+std::optional<Prepared> prepared(const DriveRecord& record, DriveSoFar& so_far,
                                  const RangeBearingEstimator& estimator, const LandmarkMap& map,
                                  const RangeBearingOptions& options,
                                  const std::optional<Resumption>& from) {
@@ -176,7 +176,7 @@ std::optional<Prepared> prepared(const DriveRecord& record, const DriveSoFar& so
 }
 
 /// With places as known by now.
-LandmarkMap mapSoFar(const RangeBearingEstimator& estimator, const DriveSoFar& so_far) {
+LandmarkMap mapSoFar(const RangeBearingEstimator& estimator, DriveSoFar& so_far) {
   LandmarkMap map = moved(estimator.map(), so_far.now().T_world_filter);
   const auto places = so_far.places();
   for (LandmarkRecord& landmark : map)
@@ -211,7 +211,7 @@ std::optional<SmoothedDrive> smoothedDrive(const DriveRecord& record, DriveSoFar
   std::vector<double> used(drive.points_world.size(), 0.0);
   for (const Drive::Sighting& sighting : drive.sightings)
     if (sighting.used) used[sighting.point] += 1.0;
-  const Pose2 T_map_start = options.world_with_map && !from ? so_far.asSaid(drive.T_world_robot) : Pose2{};
+  const Pose2 T_map_start = options.world_with_map && !from ? so_far.asSaid([&](std::size_t k) { return drive.T_world_robot[k]; }) : Pose2{};
   result.T_world_filter = T_map_start * so_far.now().T_world_filter;
   for (std::size_t k = 0; k < record.stamps_s.size(); ++k)
     result.trajectory.push_back(

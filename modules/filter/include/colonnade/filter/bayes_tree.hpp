@@ -29,13 +29,12 @@ class BayesTree {
   void setFactor(int factor, LinearFactor to);
   const LinearFactor& factor(int factor) const { return factors_[index(factor)]; }
 
-  /// Eliminates what has changed, with `last` last, and solves. False: the equations are singular,
-  /// and so they remain.
+  /// Eliminates what has changed, with `last` last. False: the equations are singular, and so they
+  /// remain.
   bool update(std::span<const int> last);
-  /// What a variable has moved by, to 1e-5.
-  Eigen::Map<const Eigen::VectorXd> x(int variable) const;
-  /// Variables whose x the last update changed.
-  const std::vector<int>& moved() const { return moved_; }
+  /// What a variable has moved by. Solved for when it is asked for, together with those eliminated
+  /// after it that it hangs on.
+  Eigen::Map<const Eigen::VectorXd> x(int variable);
   /// Of the two last of `last`, which have to hang together, or of the last where it is alone.
   Eigen::MatrixXd covarianceOfLast() const;
   /// Variables eliminated by the last update.
@@ -53,6 +52,7 @@ class BayesTree {
     std::vector<int> separator;
     Eigen::MatrixXd L, S;
     Eigen::VectorXd y, s;
+    std::size_t solved = 0;  ///< by which solution
   };
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
   Node& node(int variable) { return nodes_[index(variable)]; }
@@ -64,9 +64,7 @@ class BayesTree {
   int firstPosition(const std::vector<int>& variables) const;
   void assign(const std::vector<int>& orphans);
   bool eliminate(int variable);
-  /// Whether it moved.
-  bool solve(int variable);
-  void solveBelow(const std::vector<int>& orphans);
+  void solve(Node& here);
   /// Rows in front_ of variables one after another, into at_.
   void findRows(const std::vector<int>& variables);
 
@@ -75,7 +73,8 @@ class BayesTree {
   std::vector<double> x_;
   std::vector<int> touched_;
   std::vector<int> roots_;  ///< the last two
-  std::vector<int> moved_;
+  std::size_t solution_ = 0;
+  std::vector<int> asked_;
   // While something is eliminated:
   std::vector<int> order_;
   std::vector<int> position_;                ///< of variables in the order; -1: stays eliminated

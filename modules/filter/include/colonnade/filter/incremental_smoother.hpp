@@ -31,16 +31,20 @@ class IncrementalSmoother {
   /// Steps of Gauss and Newton until no term is off by much. False: no solution; then nothing it
   /// holds is of use.
   bool update();
-  /// As known by now; sightings that were removed are not used.
-  const Drive& drive() const { return drive_; }
+  /// As known by now; sightings that were removed are not used. All of it takes long.
+  const Drive& drive();
+  const Pose2& pose(std::size_t pose);
+  std::size_t poses() const { return poses_.size(); }
+  bool isUsed(std::size_t sighting) const { return drive_.sightings[sighting].used; }
   std::size_t unused() const;
   /// Of (x, y, phi) of the last pose in the axes of the world, given the first. After update().
-  Eigen::Matrix3d lastPoseCovariance() const;
+  Eigen::Matrix3d lastPoseCovariance();
 
-  double cost() const;
 
  private:
   using Moved = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, SensorErrors::kSize, 1>;
+  /// What the terms of some poses depend on.
+  std::vector<int> variablesOf(const std::vector<std::size_t>& poses) const;
   LinearFactor motionFactor(std::size_t pose) const;
   LinearFactor sightingFactor(std::size_t sighting) const;
   LinearFactor depthFactor(std::size_t depth) const;
@@ -54,12 +58,13 @@ class IncrementalSmoother {
   /// Poses to look at this time: the new ones, some before them, and of the others as many as time
   /// allows, other ones each time.
   std::vector<std::size_t> sweep();
-  bool step(const std::vector<int>& last);
+  bool step(const std::vector<std::size_t>& poses, const std::vector<int>& variables);
   std::vector<int> likelyNext() const;
   void holdAmongReadings();
   /// What is sought, as what it has moved by from where it started.
   Moved moved(int variable) const;
   void place(int variable, const Moved& moved);
+  double costOf(const std::vector<std::size_t>& poses) const;
 
   double gate_probability_;
   Drive drive_;
@@ -70,6 +75,7 @@ class IncrementalSmoother {
   std::vector<Eigen::Vector3d> pose_bases_;
   std::vector<Eigen::Vector2d> point_bases_;
   std::vector<std::size_t> number_;  ///< of the pose or the point a variable is
+  std::vector<bool> is_point_;       ///< variables
   std::vector<int> motions_, sightings_, depths_;  ///< factors; -1: none
   struct Terms {
     std::vector<std::size_t> sightings, depths;
@@ -80,7 +86,7 @@ class IncrementalSmoother {
   std::size_t held_ = 0;        ///< the pose that stays where it is
   std::size_t held_since_ = 0;  ///< poses by then
   int hold_ = -1;               ///< factor
-  bool behind_ = false;  ///< not where the tree's solution is: a step was cut short
+  std::vector<int> behind_;  ///< not where the tree's solution is: a step was cut short
 };
 
 }  // namespace colonnade

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <optional>
 #include <vector>
@@ -42,15 +43,15 @@ class DriveSoFar {
 
   const Now& now() const { return now_; }
   /// Of all frames, as known by now.
-  std::vector<Pose2> poses() const;
+  std::vector<Pose2> poses();
   /// As smoothed last, of landmarks that have readings.
-  std::map<LandmarkId, Eigen::Vector2d> places() const;
+  std::map<LandmarkId, Eigen::Vector2d> places();
   /// Whether a reading was within the gate when the drive was smoothed last, if it was in it.
   std::optional<bool> isUsed(std::size_t reading) const;
   /// As smoothed last; none: not estimated.
-  std::optional<SensorErrors> sensorErrors() const;
-  /// Where the world of such poses lies in that of the poses that were said.
-  Pose2 asSaid(const std::vector<Pose2>& T_drive_robot) const;
+  std::optional<SensorErrors> sensorErrors();
+  /// Where the world of such poses, by frames, lies in that of the poses that were said.
+  Pose2 asSaid(const std::function<Pose2(std::size_t)>& T_drive_robot) const;
 
  private:
   struct Sighted {
