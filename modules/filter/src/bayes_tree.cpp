@@ -58,6 +58,7 @@ bool BayesTree::update(std::span<const int> last) {
   putInOrder(orphans, last);
   assign(orphans);
   bool good = true;
+  work_ = 0.0;
   for (const int v : order_) good = good && eliminate(v);
   if (good)
     ++solution_;
@@ -172,14 +173,16 @@ bool BayesTree::eliminate(int variable) {
     rows += node(v).size;
   }
 
-  if (front_.rows() < rows) {
-    front_.resize(2 * rows, 2 * rows);
-    front_b_.resize(2 * rows);
-  }
-  auto F = front_.topLeftCorner(rows, rows);
-  auto b = front_b_.head(rows);
-  F.setZero();
-  b.setZero();
+  // The front: its columns of the variable, and below them its lower triangle of the separator.
+  const Eigen::Index size = here.size, rest = rows - size;
+  Eigen::MatrixXd &L = here.L, &S = here.S;
+  Eigen::VectorXd b = Eigen::VectorXd::Zero(rows);
+  L.setZero(rows, size);
+  S.resize(rest, rest);
+  for (Eigen::Index j = 0; j < rest; ++j) S.col(j).tail(rest - j).setZero();
+  const auto entry = [&](Eigen::Index row, Eigen::Index column) -> double& {
+    return column < size ? L(row, column) : S(row - size, column - size);
+  };
   for (auto f = own; f != own_end; ++f) {
     const LinearFactor& factor = factors_[index(f->second)];
     findRows(factor.variables);
@@ -190,7 +193,7 @@ bool BayesTree::eliminate(int variable) {
       b(column) -= G(j, n);
       for (Eigen::Index i = 0; i < n; ++i)
         if (const Eigen::Index row = at_[static_cast<std::size_t>(i)]; row >= column)
-          F(row, column) += G(i, j);
+          entry(row, column) += G(i, j);
     }
   }
   for (const int child : here.children) {
@@ -202,27 +205,25 @@ bool BayesTree::eliminate(int variable) {
       b(column) += below.s(j);
       for (Eigen::Index i = j; i < n; ++i) {
         const Eigen::Index row = at_[static_cast<std::size_t>(i)];
-        F(std::max(row, column), std::min(row, column)) += below.S(i, j);
+        entry(std::max(row, column), std::min(row, column)) += below.S(i, j);
       }
     }
   }
   row_[index(variable)] = -1;
   for (const int v : separator) row_[index(v)] = -1;
 
-  const Eigen::Index size = here.size, rest = rows - size;
   const Eigen::LLT<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 5, 5>> llt(
-      F.topLeftCorner(size, size));
-  if (llt.info() != Eigen::Success || !F.allFinite()) return false;
-  here.L = F.leftCols(size);
-  here.L.topRows(size) = llt.matrixL();
+      L.topRows(size));
+  if (llt.info() != Eigen::Success || !L.allFinite()) return false;
+  L.topRows(size) = llt.matrixL();
+  const auto corner = L.topRows(size).triangularView<Eigen::Lower>();
   here.y = b.head(size);
-  const auto L = here.L.topRows(size).triangularView<Eigen::Lower>();
-  L.solveInPlace(here.y);
-  auto below = here.L.bottomRows(rest);
-  L.transpose().solveInPlace<Eigen::OnTheRight>(below);
-  here.S = F.bottomRightCorner(rest, rest);
-  here.S.selfadjointView<Eigen::Lower>().rankUpdate(below, -1.0);
+  corner.solveInPlace(here.y);
+  auto below = L.bottomRows(rest);
+  corner.transpose().solveInPlace<Eigen::OnTheRight>(below);
+  S.selfadjointView<Eigen::Lower>().rankUpdate(below, -1.0);
   here.s = b.tail(rest) - below * here.y;
+  work_ += static_cast<double>(S.size());
   here.done = true;
   if (!separator.empty()) {
     here.parent = separator.front();

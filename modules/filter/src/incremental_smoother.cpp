@@ -19,6 +19,8 @@ constexpr int kMostSteps = 10;
 constexpr int kMostGatings = 3;
 /// Poses before the new ones that are looked at in every step, and terms elsewhere at each update.
 constexpr std::size_t kRecent = 30, kSwept = 1500;
+/// Of BayesTree::work(): beyond it the steps of an update are for the recent poses alone.
+constexpr double kAffordable = 4e6;
 /// A term is linearised again when it is off by more than this from what its linearisation says, in
 /// sigmas, or its derivatives by more than this share of them.
 constexpr double kOff = 0.01;
@@ -225,6 +227,7 @@ std::vector<std::size_t> IncrementalSmoother::sweep() {
     terms += 1 + terms_[swept_].sightings.size();
   }
   for (std::size_t k = recent; k < poses_.size(); ++k) poses.push_back(k);
+  recent_ = poses_.size() - recent;
   updated_ = poses_.size();
   return poses;
 }
@@ -320,18 +323,22 @@ bool IncrementalSmoother::update() {
   holdAmongReadings();
   const std::vector<std::size_t> poses = sweep();
   const std::vector<int> variables = variablesOf(poses);
-  const auto anyOf = [&](bool (IncrementalSmoother::*changed)(std::size_t)) {
-    bool any = false;
-    for (const std::size_t k : poses) any |= (this->*changed)(k);
-    return any;
-  };
   for (const int v : variables)
     if (std::find(behind_.begin(), behind_.end(), v) == behind_.end()) place(v, tree_.x(v));
+  std::size_t first = 0;
+  const auto anyOf = [&](bool (IncrementalSmoother::*changed)(std::size_t)) {
+    bool any = false;
+    for (std::size_t i = first; i < poses.size(); ++i) any |= (this->*changed)(poses[i]);
+    return any;
+  };
   anyOf(&IncrementalSmoother::relineariseAt);
+  double work = 0.0;
   for (int gating = 0; gating < kMostGatings; ++gating) {
     bool off = true;
     for (int i = 0; i < kMostSteps && off; ++i) {
       if (!step(poses, variables)) return false;
+      work += tree_.work();
+      if (work > kAffordable) first = poses.size() - recent_;
       off = anyOf(&IncrementalSmoother::relineariseAt) || !behind_.empty();
     }
     if (gating + 1 < kMostGatings && !anyOf(&IncrementalSmoother::gateAt)) break;

@@ -39,6 +39,8 @@ class BayesTree {
   Eigen::MatrixXd covarianceOfLast() const;
   /// Variables eliminated by the last update.
   std::size_t eliminated() const { return order_.size(); }
+  /// Entries of all that was passed on in that; its time goes with them.
+  double work() const { return work_; }
 
  private:
   struct Node {
@@ -73,14 +75,13 @@ class BayesTree {
   std::vector<double> x_;
   std::vector<int> touched_;
   std::vector<int> roots_;  ///< the last two
+  double work_ = 0.0;
   std::size_t solution_ = 0;
   std::vector<int> asked_;
   // While something is eliminated:
   std::vector<int> order_;
   std::vector<int> position_;                ///< of variables in the order; -1: stays eliminated
   std::vector<std::pair<int, int>> met_;     ///< where a factor is first met, and which; sorted
-  Eigen::MatrixXd front_;                    ///< its lower triangle
-  Eigen::VectorXd front_b_;
   std::vector<Eigen::Index> row_;            ///< of a variable in the front; -1: not there
   std::vector<Eigen::Index> at_;
 };

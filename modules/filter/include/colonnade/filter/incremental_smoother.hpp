@@ -83,6 +83,7 @@ class IncrementalSmoother {
   std::vector<Terms> terms_;  ///< of each pose, but for its motion
   std::size_t updated_ = 0;   ///< poses at the last update
   std::size_t swept_ = 0;
+  std::size_t recent_ = 0;
   std::size_t held_ = 0;        ///< the pose that stays where it is
   std::size_t held_since_ = 0;  ///< poses by then
   int hold_ = -1;               ///< factor
