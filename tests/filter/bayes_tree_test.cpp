@@ -34,7 +34,9 @@ class Both {
   }
   std::size_t factors() const { return factors_.size(); }
   std::size_t variables() const { return sizes_.size(); }
-  int any() { return std::uniform_int_distribution<int>(0, static_cast<int>(sizes_.size()) - 1)(random_); }
+  int any() {
+    return std::uniform_int_distribution<int>(0, static_cast<int>(sizes_.size()) - 1)(random_);
+  }
   bool isUnary(std::size_t i) const { return variables_[i].size() == 1; }
 
   void expectEqual(const std::vector<int>& last) {
@@ -59,10 +61,11 @@ class Both {
       EXPECT_LT((tree.x(static_cast<int>(v)) - x.segment(at[v], sizes_[v])).norm(), 1e-4) << v;
     std::vector<Eigen::Index> rows;
     for (const int v : last)
-      for (Eigen::Index i = at[static_cast<std::size_t>(v)]; i < at[static_cast<std::size_t>(v) + 1];
-           ++i)
+      for (Eigen::Index i = at[static_cast<std::size_t>(v)];
+           i < at[static_cast<std::size_t>(v) + 1]; ++i)
         rows.push_back(i);
-    const Eigen::MatrixXd P = H.inverse()(rows, rows);
+    const Eigen::MatrixXd all = H.inverse();
+    const Eigen::MatrixXd P = all(rows, rows);
     EXPECT_LT((tree.covarianceOfLast() - P).norm(), 1e-8 * P.norm());
   }
 
@@ -91,12 +94,12 @@ TEST(BayesTree, SolvesWhatIsAddedChangedAndTakenAway) {
     const auto oneIn = [&](int n) { return std::uniform_int_distribution<int>(1, n)(random) == 1; };
     both.addVariable();
     for (int round = 0; round < 60; ++round) {
+      const auto changed = static_cast<std::size_t>(both.any());
+      if (!both.isUnary(changed)) both.change(changed, oneIn(2));
       const int former = both.any();
       const int v = both.addVariable();
       both.add({former, v});
       if (v > 1 && oneIn(3)) both.add({v, (v + 1) / 2, 0});
-      const auto changed = static_cast<std::size_t>(both.any());
-      if (!both.isUnary(changed)) both.change(changed, oneIn(2));
       const std::vector<int> last{former, v};
       ASSERT_TRUE(both.tree.update(last));
       both.expectEqual(last);

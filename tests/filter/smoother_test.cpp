@@ -123,24 +123,6 @@ TEST(Smoother, CovariancesOfThePointsAreHonest) {
   EXPECT_LT(sum / count, 1.35);
 }
 
-TEST(Smoother, CovarianceOfTheLastPoseIsHonest) {
-  constexpr int kDrives = 40;
-  double nees = 0.0;
-  for (unsigned seed = 200; seed < 200 + kDrives; ++seed) {
-    SimulatedDrive drive = simulatedDrive(seed, false);
-    smoothOn(drive.start, 1.0);
-    const auto P = lastPoseCovariance(drive.start);
-    ASSERT_TRUE(P);
-    Eigen::Vector3d error =
-        drive.start.T_world_robot.back().vector() - drive.truth.T_world_robot.back().vector();
-    error(2) = wrapAngle(error(2));
-    nees += error.dot(P->inverse() * error) / 3.0 / kDrives;
-  }
-  // Chi-square of 120 degrees of freedom over 120: 0.76 to 1.27 in 95 of 100 cases.
-  EXPECT_GT(nees, 0.7);
-  EXPECT_LT(nees, 1.35);
-}
-
 /// Two bearings that hardly differ meet anywhere, and cross right before the robot by chance.
 TEST(Smoother, WhatIsKnownOfADepthKeepsAPointAway) {
   Drive drive;
@@ -169,7 +151,7 @@ TEST(Smoother, AWrongReadingStaysOutWhereItStartsOut) {
   estimate.sightings[40].measurement.z(0) += 1.0;
   estimate.sightings[40].used = false;
   estimate.sightings[50].used = false;  // a right one comes in
-  const Smoothing result = smoothOn(estimate, kGate);
+  const Smoothing result = smooth(estimate, kGate);
   EXPECT_EQ(result.unused, 1u);
   EXPECT_FALSE(estimate.sightings[40].used);
   EXPECT_TRUE(estimate.sightings[50].used);

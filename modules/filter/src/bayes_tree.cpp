@@ -14,7 +14,7 @@ namespace colonnade {
 namespace {
 
 /// J^T J of a factor of three variables and its right side without an allocation.
-using Gram = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 11, 11>;
+using Gram = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 16, 16>;
 
 }  // namespace
 
@@ -53,7 +53,8 @@ void BayesTree::touch(const LinearFactor& factor) {
 }
 
 bool BayesTree::update(std::span<const int> last) {
-  roots_.assign(last.end() - static_cast<std::ptrdiff_t>(std::min<std::size_t>(last.size(), 2)), last.end());
+  roots_.assign(last.end() - static_cast<std::ptrdiff_t>(std::min<std::size_t>(last.size(), 2)),
+                last.end());
   const std::vector<int> orphans = takeTop();
   putInOrder(orphans, last);
   assign(orphans);
@@ -91,8 +92,7 @@ std::vector<int> BayesTree::takeTop() {
 
 void BayesTree::putInOrder(const std::vector<int>& orphans, std::span<const int> last) {
   const auto size = static_cast<Eigen::Index>(order_.size());
-  for (std::size_t i = 0; i < order_.size(); ++i)
-    position_[index(order_[i])] = static_cast<int>(i);
+  for (std::size_t i = 0; i < order_.size(); ++i) position_[index(order_[i])] = static_cast<int>(i);
   std::vector<Eigen::Triplet<double>> together;
   for (const int v : order_) {
     const int p = position_[index(v)];
@@ -118,8 +118,7 @@ void BayesTree::putInOrder(const std::vector<int>& orphans, std::span<const int>
   for (const int v : last)
     if (position_[index(v)] >= 0) order.push_back(v);
   order_ = std::move(order);
-  for (std::size_t i = 0; i < order_.size(); ++i)
-    position_[index(order_[i])] = static_cast<int>(i);
+  for (std::size_t i = 0; i < order_.size(); ++i) position_[index(order_[i])] = static_cast<int>(i);
 }
 
 int BayesTree::firstPosition(const std::vector<int>& variables) const {
@@ -151,9 +150,9 @@ void BayesTree::findRows(const std::vector<int>& variables) {
 
 bool BayesTree::eliminate(int variable) {
   Node& here = node(variable);
-  const auto [own, own_end] = std::equal_range(
-      met_.begin(), met_.end(), std::pair(position_[index(variable)], 0),
-      [](const auto& a, const auto& b) { return a.first < b.first; });
+  const auto [own, own_end] =
+      std::equal_range(met_.begin(), met_.end(), std::pair(position_[index(variable)], 0),
+                       [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<int>& separator = here.separator;
   row_[index(variable)] = 0;
   const auto take = [&](const std::vector<int>& variables) {

@@ -21,10 +21,6 @@ constexpr int kMostGatings = 3;
 constexpr std::size_t kRecent = 30, kSwept = 1500;
 /// Of BayesTree::work(): beyond it the steps of an update are for the recent poses alone.
 constexpr double kAffordable = 4e6;
-/// A term is linearised again when it is off by more than this from what its linearisation says, in
-/// sigmas, or its derivatives by more than this share of them.
-constexpr double kOff = 0.01;
-
 /// A step that moves anything farther is checked, m and rad, and halved so often while it does not
 /// help.
 constexpr double kLarge = 0.1;
@@ -42,12 +38,6 @@ LinearFactor holdOf(int pose, const Eigen::Vector3d& where) {
   return {{pose}, J_r / kHeldSigma};
 }
 
-/// U with U^T U = information.
-template <class Matrix>
-Matrix rootOf(const Matrix& information) {
-  return Eigen::LLT<Matrix>(information).matrixU();
-}
-
 }  // namespace
 
 IncrementalSmoother::IncrementalSmoother(double gate_probability,
@@ -59,8 +49,7 @@ IncrementalSmoother::IncrementalSmoother(double gate_probability,
   number_.push_back(0);
   is_point_.push_back(false);
   Eigen::MatrixXd J_r(SensorErrors::kSize, SensorErrors::kSize + 1);
-  const SensorErrors::Vector root =
-      sensor->sigmas.vector().cwiseMax(kKnownSigma).cwiseInverse();
+  const SensorErrors::Vector root = sensor->sigmas.vector().cwiseMax(kKnownSigma).cwiseInverse();
   J_r << root.asDiagonal().toDenseMatrix(), Eigen::VectorXd::Zero(SensorErrors::kSize);
   drive_.sensor->errors = {};
   tree_.addFactor({{*sensor_}, J_r});
@@ -117,81 +106,6 @@ void IncrementalSmoother::addDepth(const Drive::Depth& depth) {
   set(depths_.back(), depthFactor(depths_.size() - 1));
 }
 
-LinearFactor IncrementalSmoother::motionFactor(std::size_t pose) const {
-  const MotionTerm term = motionTerm(drive_, pose);
-  const Eigen::Matrix3d root = rootOf(term.information);
-  const int before = poses_[pose - 1], after = poses_[pose];
-  LinearFactor factor{{before, after}, Eigen::MatrixXd(3, 7)};
-  const Eigen::Vector3d r =
-      term.residual - term.J_before * moved(before) - term.J_after * moved(after);
-  factor.J_r << root * term.J_before, root * term.J_after, root * r;
-  return factor;
-}
-
-LinearFactor IncrementalSmoother::sightingFactor(std::size_t number) const {
-  const Drive::Sighting& sighting = drive_.sightings[number];
-  const SightingTerm term = sightingTerm(drive_, sighting);
-  const double distance2 = term.residual.dot(term.information * term.residual);
-  const MeasurementCovariance root =
-      std::sqrt(huberWeight(distance2, term.residual.size())) * rootOf(term.information);
-  LinearFactor factor;
-  Eigen::MatrixXd& J_r = factor.J_r;
-  J_r.resize(term.residual.size(), 3 + 2 + SensorErrors::kSize + 1);
-  MeasurementVector r = term.residual;
-  Eigen::Index column = 0;
-  const auto add = [&](int variable, const auto& J) {
-    factor.variables.push_back(variable);
-    r -= J.lazyProduct(moved(variable));
-    J_r.middleCols(column, J.cols()) = root.lazyProduct(J);
-    column += J.cols();
-  };
-  add(poses_[sighting.pose], term.J_pose);
-  add(points_[sighting.point], term.J_point);
-  if (sensor_) add(*sensor_, term.J_sensor);
-  J_r.col(column) = root * r;
-  J_r.conservativeResize(Eigen::NoChange, column + 1);
-  return factor;
-}
-
-LinearFactor IncrementalSmoother::depthFactor(std::size_t number) const {
-  const Drive::Depth& depth = drive_.depths[number];
-  const DepthTerm term = depthTerm(drive_, depth);
-  const double root = std::sqrt(term.information);
-  const int pose = poses_[depth.pose], point = points_[depth.point];
-  LinearFactor factor{{pose, point}, Eigen::MatrixXd(1, 6)};
-  const double r =
-      term.residual - term.J_point.dot(moved(point)) - term.J_pose.dot(moved(pose));
-  factor.J_r << root * term.J_pose, root * term.J_point, root * r;
-  return factor;
-}
-
-void IncrementalSmoother::set(int& factor, LinearFactor to) {
-  if (factor < 0)
-    factor = tree_.addFactor(std::move(to));
-  else
-    tree_.setFactor(factor, std::move(to));
-}
-
-bool IncrementalSmoother::relinearise(int factor, LinearFactor now) {
-  const Eigen::MatrixXd &before = tree_.factor(factor).J_r, &J_r = now.J_r;
-  const Eigen::Index n = J_r.cols() - 1;
-  using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 10>;
-  const Small dJ = J_r.leftCols(n) - before.leftCols(n);
-  // Both linearisations where the drive is.
-  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1> r = J_r.col(n) - before.col(n);
-  Eigen::Index column = 0;
-  for (const int v : now.variables) {
-    const Moved x = moved(v);
-    r += dJ.middleCols(column, x.size()).lazyProduct(x);
-    column += x.size();
-  }
-  if (r.squaredNorm() < kOff * kOff &&
-      dJ.squaredNorm() < kOff * kOff * J_r.leftCols(n).squaredNorm())
-    return false;
-  tree_.setFactor(factor, std::move(now));
-  return true;
-}
-
 bool IncrementalSmoother::relineariseAt(std::size_t pose) {
   bool any = pose > 0 && relinearise(motions_[pose], motionFactor(pose));
   for (const std::size_t i : terms_[pose].sightings)
@@ -208,8 +122,8 @@ bool IncrementalSmoother::gateAt(std::size_t pose) {
     const double distance = distance2(drive_, sighting);
     const bool within =
         std::isfinite(distance) &&
-        distance <= chiSquareQuantile(gate_probability_,
-                                      static_cast<int>(sighting.measurement.z.size()));
+        distance <=
+            chiSquareQuantile(gate_probability_, static_cast<int>(sighting.measurement.z.size()));
     if (within == sighting.used) continue;
     sighting.used = within;
     any = true;
@@ -247,8 +161,8 @@ std::vector<int> IncrementalSmoother::likelyNext() const {
   return last;
 }
 
-/// Which pose stays where it is changes nothing of what is known. But terms of a long drive that are
-/// linearised at different times agree best where most of it hardly turns: not about the start,
+/// Which pose stays where it is changes nothing of what is known. But terms of a long drive that
+/// are linearised at different times agree best where most of it hardly turns: not about the start,
 /// past which little was read.
 void IncrementalSmoother::holdAmongReadings() {
   if (poses_.size() < std::max(kFirstHold, 2 * held_since_)) return;
@@ -307,7 +221,7 @@ bool IncrementalSmoother::step(const std::vector<std::size_t>& poses,
   behind_.clear();
   const double cost = largest > kLarge ? costOf(poses) : HUGE_VAL;
   go(1.0);
-  if (costOf(poses) <= cost) return true;
+  if (!(largest > kLarge) || costOf(poses) <= cost) return true;
   for (double share = 0.5; share > std::exp2(-kHalvings); share *= 0.5) {
     go(share);
     if (!(costOf(poses) <= cost)) continue;
@@ -324,7 +238,7 @@ bool IncrementalSmoother::update() {
   const std::vector<std::size_t> poses = sweep();
   const std::vector<int> variables = variablesOf(poses);
   for (const int v : variables)
-    if (std::find(behind_.begin(), behind_.end(), v) == behind_.end()) place(v, tree_.x(v));
+    if (!std::binary_search(behind_.begin(), behind_.end(), v)) place(v, tree_.x(v));
   std::size_t first = 0;
   const auto anyOf = [&](bool (IncrementalSmoother::*changed)(std::size_t)) {
     bool any = false;
@@ -344,27 +258,6 @@ bool IncrementalSmoother::update() {
     if (gating + 1 < kMostGatings && !anyOf(&IncrementalSmoother::gateAt)) break;
   }
   return true;
-}
-
-IncrementalSmoother::Moved IncrementalSmoother::moved(int variable) const {
-  const std::size_t i = number_[static_cast<std::size_t>(variable)];
-  if (variable == sensor_) return drive_.sensor->errors.vector();
-  if (is_point_[static_cast<std::size_t>(variable)]) return drive_.points_world[i] - point_bases_[i];
-  Eigen::Vector3d moved = drive_.T_world_robot[i].vector() - pose_bases_[i];
-  moved(2) = wrapAngle(moved(2));
-  return moved;
-}
-
-void IncrementalSmoother::place(int variable, const Moved& moved) {
-  const std::size_t i = number_[static_cast<std::size_t>(variable)];
-  if (variable == sensor_) {
-    drive_.sensor->errors = SensorErrors::of(moved);
-  } else if (moved.size() == 2) {
-    drive_.points_world[i] = point_bases_[i] + moved;
-  } else {
-    const Eigen::Vector3d pose = pose_bases_[i] + moved;
-    drive_.T_world_robot[i] = {pose(0), pose(1), wrapAngle(pose(2))};
-  }
 }
 
 double IncrementalSmoother::costOf(const std::vector<std::size_t>& poses) const {

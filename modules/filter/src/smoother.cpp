@@ -104,21 +104,6 @@ Smoothing smooth(Drive& drive, double gate_probability) {
   return result;
 }
 
-Smoothing smoothOn(Drive& drive, double gate_probability) {
-  Smoothing result;
-  settled(drive, gate_probability, result);
-  return result;
-}
-
-std::optional<Eigen::Matrix3d> lastPoseCovariance(const Drive& drive) {
-  const NormalEquations at(drive);
-  const Eigen::SimplicialLDLT<Sparse> factor(at.H());
-  const std::size_t last = drive.T_world_robot.size() - 1;
-  if (factor.info() != Eigen::Success || last < at.firstFreePose()) return std::nullopt;
-  const Eigen::Matrix3d lift = liftOf(drive.T_world_robot[last]);
-  return lift * covarianceOf(factor, at.poseAt(last), 3) * lift.transpose();
-}
-
 double smoothedCost(Drive drive, double gate_probability) {
   return smoothWithoutCovariance(drive, gate_probability).cost;
 }

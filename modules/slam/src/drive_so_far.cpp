@@ -156,9 +156,9 @@ void DriveSoFar::addReadings(const DriveRecord& record, const RangeBearingEstima
     if (options.use_ids && identity >= 0 && bearer != bearers.end()) landmark = bearer->second;
     const auto point = landmark ? points_.find(*landmark) : points_.end();
     if (point == points_.end()) continue;
-    sighted_[i] = Sighted{smoother_->addSighting(
-                              {frame, point->second.point, *measurement, decided_[i].has_value()}),
-                          point->second.point};
+    sighted_[i] = Sighted{
+        smoother_->addSighting({frame, point->second.point, *measurement, decided_[i].has_value()}),
+        point->second.point};
   }
   std::erase_if(open_, [&](std::size_t i) { return sighted_[i].has_value(); });
 }

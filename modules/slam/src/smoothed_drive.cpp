@@ -211,7 +211,10 @@ std::optional<SmoothedDrive> smoothedDrive(const DriveRecord& record, DriveSoFar
   std::vector<double> used(drive.points_world.size(), 0.0);
   for (const Drive::Sighting& sighting : drive.sightings)
     if (sighting.used) used[sighting.point] += 1.0;
-  const Pose2 T_map_start = options.world_with_map && !from ? so_far.asSaid([&](std::size_t k) { return drive.T_world_robot[k]; }) : Pose2{};
+  const Pose2 T_map_start =
+      options.world_with_map && !from
+          ? so_far.asSaid([&](std::size_t k) { return drive.T_world_robot[k]; })
+          : Pose2{};
   result.T_world_filter = T_map_start * so_far.now().T_world_filter;
   for (std::size_t k = 0; k < record.stamps_s.size(); ++k)
     result.trajectory.push_back(

@@ -10,7 +10,7 @@
 
 namespace colonnade {
 
-/// |J x + r|^2, x what some variables have moved by.
+/// |J x + r|^2, x what one to three variables of at most five entries have moved by.
 struct LinearFactor {
   std::vector<int> variables;
   Eigen::MatrixXd J_r;  ///< the columns of the variables one after another and, last, r
@@ -80,9 +80,9 @@ class BayesTree {
   std::vector<int> asked_;
   // While something is eliminated:
   std::vector<int> order_;
-  std::vector<int> position_;                ///< of variables in the order; -1: stays eliminated
-  std::vector<std::pair<int, int>> met_;     ///< where a factor is first met, and which; sorted
-  std::vector<Eigen::Index> row_;            ///< of a variable in the front; -1: not there
+  std::vector<int> position_;             ///< of variables in the order; -1: stays eliminated
+  std::vector<std::pair<int, int>> met_;  ///< where a factor is first met, and which; sorted
+  std::vector<Eigen::Index> row_;         ///< of a variable in the front; -1: not there
   std::vector<Eigen::Index> at_;
 };
 

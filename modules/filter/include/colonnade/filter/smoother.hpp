@@ -94,14 +94,6 @@ struct Smoothing {
 /// without a sighting is left as it is.
 Smoothing smooth(Drive& drive, double gate_probability);
 
-/// The same of a drive that has gone on since it was smoothed: from where it is, without trials of
-/// other decisions, and without covariance.
-Smoothing smoothOn(Drive& drive, double gate_probability);
-
-/// Of (x, y, phi) of the last pose of a smoothed drive in the axes of the world, given the first
-/// pose or the prior. Nothing where the equations are singular.
-std::optional<Eigen::Matrix3d> lastPoseCovariance(const Drive& drive);
-
 /// What a drive costs once it is smoothed.
 double smoothedCost(Drive drive, double gate_probability);
 
