@@ -127,6 +127,21 @@ TEST(BayesTree, EliminatesOnlyWhatHangsTogetherWithTheChange) {
   }
 }
 
+/// Also where one of the two last has nothing to do with what has changed.
+TEST(BayesTree, CovariancesAreOfTheTwoThatWereAskedToBeLast) {
+  Both both(9);
+  const int first = both.addVariable();
+  int former = first;
+  for (int k = 0; k < 20; ++k) {
+    const int next = both.addVariable();
+    both.add({former, next});
+    const std::vector<int> last{first, next};
+    ASSERT_TRUE(both.tree.update(last));
+    both.expectEqual(last);
+    former = next;
+  }
+}
+
 TEST(BayesTree, SaysThatEquationsAreSingularAndGoesOnOnceTheyAreNot) {
   BayesTree tree;
   const int a = tree.addVariable(2);

@@ -55,6 +55,7 @@ void BayesTree::touch(const LinearFactor& factor) {
 bool BayesTree::update(std::span<const int> last) {
   roots_.assign(last.end() - static_cast<std::ptrdiff_t>(std::min<std::size_t>(last.size(), 2)),
                 last.end());
+  touched_.insert(touched_.end(), last.begin(), last.end());
   const std::vector<int> orphans = takeTop();
   putInOrder(orphans, last);
   assign(orphans);
