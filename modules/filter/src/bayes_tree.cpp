@@ -31,7 +31,8 @@ int BayesTree::addVariable(int size) {
 
 int BayesTree::addFactor(LinearFactor factor) {
   const int number = static_cast<int>(factors_.size());
-  for (const int v : factor.variables) node(v).factors.push_back(number);
+  fresh_.push_back(number);
+  listed_.push_back(true);
   touch(factor);
   factors_.push_back(std::move(factor));
   return number;
@@ -40,10 +41,10 @@ int BayesTree::addFactor(LinearFactor factor) {
 void BayesTree::setFactor(int factor, LinearFactor to) {
   LinearFactor& here = factors_[index(factor)];
   touch(here);
-  for (const int v : here.variables)
-    if (to.variables.empty()) std::erase(node(v).factors, factor);
-  if (here.variables.empty())
-    for (const int v : to.variables) node(v).factors.push_back(factor);
+  if (!to.variables.empty() && !listed_[index(factor)]) {
+    fresh_.push_back(factor);
+    listed_[index(factor)] = true;
+  }
   touch(to);
   here = std::move(to);
 }
@@ -55,7 +56,7 @@ void BayesTree::touch(const LinearFactor& factor) {
 bool BayesTree::update(std::span<const int> last) {
   roots_.assign(last.end() - static_cast<std::ptrdiff_t>(std::min<std::size_t>(last.size(), 2)),
                 last.end());
-  touched_.insert(touched_.end(), last.begin(), last.end());
+  touched_.insert(touched_.end(), roots_.begin(), roots_.end());
   const std::vector<int> orphans = takeTop();
   putInOrder(orphans, last);
   assign(orphans);
@@ -70,7 +71,8 @@ bool BayesTree::update(std::span<const int> last) {
   return good;
 }
 
-/// Takes what was touched and all above it out of the tree, into order_; what is left below.
+/// Takes what was touched and all above it out of the tree, into order_, and its factors into
+/// free_; what is left below.
 std::vector<int> BayesTree::takeTop() {
   order_.clear();
   for (int v : std::exchange(touched_, {}))
@@ -79,8 +81,11 @@ std::vector<int> BayesTree::takeTop() {
       order_.push_back(v);
     }
   std::vector<int> orphans;
+  free_ = std::exchange(fresh_, {});
   for (const int v : order_) {
     Node& gone = node(v);
+    free_.insert(free_.end(), gone.factors.begin(), gone.factors.end());
+    gone.factors.clear();
     for (const int child : gone.children)
       if (position_[index(child)] < 0) orphans.push_back(child);
     gone.children.clear();
@@ -88,6 +93,10 @@ std::vector<int> BayesTree::takeTop() {
     gone.parent = -1;
     gone.done = false;
   }
+  std::erase_if(free_, [&](int f) {
+    listed_[index(f)] = !factors_[index(f)].variables.empty();
+    return !listed_[index(f)];
+  });
   return orphans;
 }
 
@@ -95,17 +104,13 @@ void BayesTree::putInOrder(const std::vector<int>& orphans, std::span<const int>
   const auto size = static_cast<Eigen::Index>(order_.size());
   for (std::size_t i = 0; i < order_.size(); ++i) position_[index(order_[i])] = static_cast<int>(i);
   std::vector<Eigen::Triplet<double>> together;
-  for (const int v : order_) {
-    const int p = position_[index(v)];
-    together.emplace_back(p, p, 1.0);
-    for (const int f : node(v).factors)
-      for (const int u : factors_[index(f)].variables)
-        if (u != v && position_[index(u)] >= 0) together.emplace_back(p, position_[index(u)], 1.0);
-  }
-  for (const int orphan : orphans)
-    for (const int v : node(orphan).separator)
-      for (const int u : node(orphan).separator)
-        if (u != v) together.emplace_back(position_[index(v)], position_[index(u)], 1.0);
+  const auto hangTogether = [&](const std::vector<int>& variables) {
+    for (const int v : variables)
+      for (const int u : variables)
+        together.emplace_back(position_[index(v)], position_[index(u)], 1.0);
+  };
+  for (const int f : free_) hangTogether(factors_[index(f)].variables);
+  for (const int orphan : orphans) hangTogether(node(orphan).separator);
   Eigen::SparseMatrix<double> graph(size, size);
   graph.setFromTriplets(together.begin(), together.end());
   Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> permutation;
@@ -130,12 +135,8 @@ int BayesTree::firstPosition(const std::vector<int>& variables) const {
 
 /// Each factor and each part that stays eliminated counts where the first of its variables is.
 void BayesTree::assign(const std::vector<int>& orphans) {
-  met_.clear();
-  for (const int v : order_)
-    for (const int f : node(v).factors)
-      if (const int first = firstPosition(factors_[index(f)].variables);
-          first == position_[index(v)])
-        met_.emplace_back(first, f);
+  for (const int f : free_)
+    node(order_[index(firstPosition(factors_[index(f)].variables))]).factors.push_back(f);
   for (const int orphan : orphans) {
     const int first = order_[index(firstPosition(node(orphan).separator))];
     node(orphan).parent = first;
@@ -151,9 +152,6 @@ void BayesTree::findRows(const std::vector<int>& variables) {
 
 bool BayesTree::eliminate(int variable) {
   Node& here = node(variable);
-  const auto [own, own_end] =
-      std::equal_range(met_.begin(), met_.end(), std::pair(position_[index(variable)], 0),
-                       [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<int>& separator = here.separator;
   row_[index(variable)] = 0;
   const auto take = [&](const std::vector<int>& variables) {
@@ -163,7 +161,7 @@ bool BayesTree::eliminate(int variable) {
       separator.push_back(v);
     }
   };
-  for (auto f = own; f != own_end; ++f) take(factors_[index(f->second)].variables);
+  for (const int f : here.factors) take(factors_[index(f)].variables);
   for (const int child : here.children) take(node(child).separator);
   std::sort(separator.begin(), separator.end(),
             [&](int a, int b) { return position_[index(a)] < position_[index(b)]; });
@@ -183,8 +181,8 @@ bool BayesTree::eliminate(int variable) {
   const auto entry = [&](Eigen::Index row, Eigen::Index column) -> double& {
     return column < size ? L(row, column) : S(row - size, column - size);
   };
-  for (auto f = own; f != own_end; ++f) {
-    const LinearFactor& factor = factors_[index(f->second)];
+  for (const int f : here.factors) {
+    const LinearFactor& factor = factors_[index(f)];
     findRows(factor.variables);
     const Gram G = factor.J_r.transpose().lazyProduct(factor.J_r);
     const Eigen::Index n = G.rows() - 1;
@@ -214,7 +212,7 @@ bool BayesTree::eliminate(int variable) {
 
   const Eigen::LLT<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 5, 5>> llt(
       L.topRows(size));
-  if (llt.info() != Eigen::Success || !L.allFinite()) return false;
+  if (llt.info() != Eigen::Success || !L.allFinite() || !b.allFinite()) return false;
   L.topRows(size) = llt.matrixL();
   const auto corner = L.topRows(size).triangularView<Eigen::Lower>();
   here.y = b.head(size);

@@ -3,6 +3,7 @@
 //
 // IncrementalSmoother: between the drive and the tree, the terms as they are linearised.
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -30,9 +31,7 @@ IncrementalSmoother::Moved IncrementalSmoother::moved(int variable) const {
   if (variable == sensor_) return drive_.sensor->errors.vector();
   if (is_point_[static_cast<std::size_t>(variable)])
     return drive_.points_world[i] - point_bases_[i];
-  Eigen::Vector3d moved = drive_.T_world_robot[i].vector() - pose_bases_[i];
-  moved(2) = wrapAngle(moved(2));
-  return moved;
+  return pose_moved_[i];
 }
 
 void IncrementalSmoother::place(int variable, const Moved& moved) {
@@ -42,9 +41,15 @@ void IncrementalSmoother::place(int variable, const Moved& moved) {
   } else if (moved.size() == 2) {
     drive_.points_world[i] = point_bases_[i] + moved;
   } else {
-    const Eigen::Vector3d pose = pose_bases_[i] + moved;
+    pose_moved_[i] = moved;
+    const Eigen::Vector3d pose = pose_bases_[i] + pose_moved_[i];
     drive_.T_world_robot[i] = {pose(0), pose(1), wrapAngle(pose(2))};
   }
+}
+
+void IncrementalSmoother::bring(int variable) {
+  if (!std::binary_search(behind_.begin(), behind_.end(), variable))
+    place(variable, tree_.x(variable));
 }
 
 LinearFactor IncrementalSmoother::motionFactor(std::size_t pose) const {

@@ -2,13 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "colonnade/filter/incremental_smoother.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <set>
 
-#include "colonnade/base/angle.hpp"
 #include "colonnade/filter/gate.hpp"
 #include "normal_equations.hpp"
 
@@ -59,6 +57,7 @@ void IncrementalSmoother::addPose(const Pose2& T_world_robot, const Drive::Motio
   drive_.T_world_robot.push_back(T_world_robot);
   drive_.motions.push_back(motion);
   pose_bases_.push_back(T_world_robot.vector());
+  pose_moved_.push_back(Eigen::Vector3d::Zero());
   poses_.push_back(tree_.addVariable(3));
   number_.push_back(poses_.size() - 1);
   is_point_.push_back(false);
@@ -149,10 +148,10 @@ std::vector<std::size_t> IncrementalSmoother::sweep() {
 /// The sensor, the last pose and the points it and those before it saw.
 std::vector<int> IncrementalSmoother::likelyNext() const {
   std::vector<int> last;
+  std::set<int> seen;
   for (std::size_t k = poses_.size(); k-- > 0 && k + kRecent > poses_.size();)
     for (const std::size_t i : terms_[k].sightings)
-      if (const int point = points_[drive_.sightings[i].point];
-          std::find(last.begin(), last.end(), point) == last.end())
+      if (const int point = points_[drive_.sightings[i].point]; seen.insert(point).second)
         last.push_back(point);
   std::reverse(last.begin(), last.end());
   if (sensor_) last.push_back(*sensor_);
@@ -169,7 +168,11 @@ void IncrementalSmoother::holdAmongReadings() {
   held_since_ = poses_.size();
   std::size_t most = 0, best = held_;
   std::size_t around = 0;
-  const auto count = [&](std::size_t k) { return terms_[k].sightings.size(); };
+  const auto count = [&](std::size_t k) {
+    const auto& all = terms_[k].sightings;
+    return static_cast<std::size_t>(
+        std::count_if(all.begin(), all.end(), [&](std::size_t i) { return isUsed(i); }));
+  };
   for (std::size_t k = 0; k < poses_.size(); ++k) {
     around += count(k);
     if (k >= 2 * kAround + 1) around -= count(k - 2 * kAround - 1);
@@ -181,6 +184,7 @@ void IncrementalSmoother::holdAmongReadings() {
   if (best == held_) return;
   tree_.setFactor(hold_, {});
   held_ = best;
+  bring(poses_[held_]);
   hold_ = tree_.addFactor(holdOf(poses_[held_], moved(poses_[held_])));
 }
 
@@ -237,8 +241,7 @@ bool IncrementalSmoother::update() {
   holdAmongReadings();
   const std::vector<std::size_t> poses = sweep();
   const std::vector<int> variables = variablesOf(poses);
-  for (const int v : variables)
-    if (!std::binary_search(behind_.begin(), behind_.end(), v)) place(v, tree_.x(v));
+  for (const int v : variables) bring(v);
   std::size_t first = 0;
   const auto anyOf = [&](bool (IncrementalSmoother::*changed)(std::size_t)) {
     bool any = false;
@@ -276,13 +279,12 @@ double IncrementalSmoother::costOf(const std::vector<std::size_t>& poses) const 
 }
 
 const Pose2& IncrementalSmoother::pose(std::size_t pose) {
-  if (behind_.empty()) place(poses_[pose], tree_.x(poses_[pose]));
+  bring(poses_[pose]);
   return drive_.T_world_robot[pose];
 }
 
 const Drive& IncrementalSmoother::drive() {
-  if (behind_.empty())
-    for (int v = 0; v < static_cast<int>(number_.size()); ++v) place(v, tree_.x(v));
+  for (int v = 0; v < static_cast<int>(number_.size()); ++v) bring(v);
   return drive_;
 }
 

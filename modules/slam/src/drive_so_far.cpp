@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include "colonnade/base/rigid_fit.hpp"
@@ -17,6 +18,8 @@ constexpr double kDoubt = 4.0;
 constexpr double kAhead_m = 1.0;
 /// So many poses said say well enough where the world is.
 constexpr std::size_t kWitnesses = 500;
+/// Where smoothing failed it is begun anew once the drive is longer by this part of it.
+constexpr std::size_t kPatience = 10;
 /// What was taken back may be so much more than what counts before all is begun anew.
 constexpr std::size_t kTakenBack = 2000;
 
@@ -63,11 +66,15 @@ void DriveSoFar::follow(const RangeBearingEstimator& estimator,
 void DriveSoFar::catchUp(const DriveRecord& record, const RangeBearingEstimator& estimator,
                          const RangeBearingOptions& options) {
   if (!options.smooth || options.smooth_every == 0) return;
-  if (record.stamps_s.size() < tried_frames_ + static_cast<std::size_t>(options.smooth_every))
-    return;
-  tried_frames_ = record.stamps_s.size();
+  const std::size_t frames = record.stamps_s.size();
+  const auto every = static_cast<std::size_t>(options.smooth_every);
+  if (frames < std::max({next_frames_, every, std::size_t{2}})) return;
+  next_frames_ = frames + every;
   followHistory(estimator.decisions());
   if (smoother_ && released_ > sighted_.size() + kTakenBack) stop();
+  if (!smoother_ && std::none_of(decided_.begin(), decided_.end(),
+                                 [](const auto& landmark) { return landmark.has_value(); }))
+    return;
   if (!smoother_) start(options);
   addFrames(record);
   addReadings(record, estimator, options);
@@ -77,6 +84,7 @@ void DriveSoFar::catchUp(const DriveRecord& record, const RangeBearingEstimator&
   if (is_smoothed_) return takeResult(estimator, options);
   stop();
   followFilter(estimator);
+  next_frames_ = std::max(next_frames_, frames + frames / kPatience);
 }
 
 void DriveSoFar::start(const RangeBearingOptions& options) {
@@ -107,7 +115,7 @@ void DriveSoFar::followHistory(const std::vector<std::optional<LandmarkId>>& dec
   if (!smoother_) return;
   for (std::size_t i = same; i < sighted_.size(); ++i)
     if (sighted_[i]) release(i);
-  std::erase_if(points_, [&](const auto& point) { return point.second.reading >= same; });
+  forget([&](LandmarkId, const Founded& point) { return point.reading >= same; });
 }
 
 void DriveSoFar::addFrames(const DriveRecord& record) {
@@ -135,10 +143,7 @@ bool DriveSoFar::foundPoint(LandmarkId landmark, std::size_t reading, const Driv
 /// Readings of believed identities are of their bearer, the others of what they were taken for.
 void DriveSoFar::addReadings(const DriveRecord& record, const RangeBearingEstimator& estimator,
                              const RangeBearingOptions& options) {
-  std::vector<LandmarkId> gone;
-  for (const auto& [landmark, point] : points_)
-    if (!estimator.filter().knows(landmark)) gone.push_back(landmark);
-  forget(gone);
+  forget([&](LandmarkId landmark, const Founded&) { return !estimator.filter().knows(landmark); });
   for (std::size_t i = sighted_.size(); i < record.readings.size(); ++i)
     if (record.readings[i].measurement) open_.push_back(i);
   sighted_.resize(record.readings.size());
@@ -163,14 +168,14 @@ void DriveSoFar::addReadings(const DriveRecord& record, const RangeBearingEstima
   std::erase_if(open_, [&](std::size_t i) { return sighted_[i].has_value(); });
 }
 
-void DriveSoFar::forget(const std::vector<LandmarkId>& landmarks) {
-  if (landmarks.empty()) return;
-  for (const LandmarkId landmark : landmarks) {
-    const std::size_t point = points_[landmark].point;
-    for (std::size_t i = 0; i < sighted_.size(); ++i)
-      if (sighted_[i] && sighted_[i]->point == point) release(i);
-    points_.erase(landmark);
-  }
+void DriveSoFar::forget(const std::function<bool(LandmarkId, const Founded&)>& which) {
+  std::set<std::size_t> gone;
+  for (const auto& [landmark, founded] : points_)
+    if (which(landmark, founded)) gone.insert(founded.point);
+  if (gone.empty()) return;
+  for (std::size_t i = 0; i < sighted_.size(); ++i)
+    if (sighted_[i] && gone.contains(sighted_[i]->point)) release(i);
+  std::erase_if(points_, [&](const auto& point) { return gone.contains(point.second.point); });
 }
 
 void DriveSoFar::takeResult(const RangeBearingEstimator& estimator,

@@ -35,7 +35,8 @@ class BayesTree {
   /// What a variable has moved by. Solved for when it is asked for, together with those eliminated
   /// after it that it hangs on.
   Eigen::Map<const Eigen::VectorXd> x(int variable);
-  /// Of the two last of `last`, which have to hang together, or of the last where it is alone.
+  /// Of the two last of `last` of the last update, which have to hang together, or of the last
+  /// where it is alone.
   Eigen::MatrixXd covarianceOfLast() const;
   /// Variables eliminated by the last update.
   std::size_t eliminated() const { return order_.size(); }
@@ -46,8 +47,9 @@ class BayesTree {
   struct Node {
     int size = 0;
     Eigen::Index at = 0;  ///< in x
+    // As eliminated: the factors none of whose variables went before; L of the rows of the
+    // separator, too, S and s what is passed on to it.
     std::vector<int> factors;
-    // As eliminated; L of the rows of the separator, too, S and s what is passed on to it.
     bool done = false;
     int parent = -1;
     std::vector<int> children;
@@ -74,15 +76,17 @@ class BayesTree {
   std::vector<LinearFactor> factors_;
   std::vector<double> x_;
   std::vector<int> touched_;
-  std::vector<int> roots_;  ///< the last two
+  std::vector<int> fresh_;    ///< factors of no node
+  std::vector<bool> listed_;  ///< factors of a node, or fresh
+  std::vector<int> roots_;    ///< the last two
   double work_ = 0.0;
   std::size_t solution_ = 0;
   std::vector<int> asked_;
   // While something is eliminated:
   std::vector<int> order_;
-  std::vector<int> position_;             ///< of variables in the order; -1: stays eliminated
-  std::vector<std::pair<int, int>> met_;  ///< where a factor is first met, and which; sorted
-  std::vector<Eigen::Index> row_;         ///< of a variable in the front; -1: not there
+  std::vector<int> free_;          ///< factors of variables in the order
+  std::vector<int> position_;      ///< of variables in the order; -1: stays eliminated
+  std::vector<Eigen::Index> row_;  ///< of a variable in the front; -1: not there
   std::vector<Eigen::Index> at_;
 };
 

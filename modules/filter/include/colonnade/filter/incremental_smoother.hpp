@@ -29,8 +29,8 @@ class IncrementalSmoother {
   void removeSighting(std::size_t sighting);
   void addDepth(const Drive::Depth& depth);
 
-  /// Steps of Gauss and Newton until no term is off by much. False: no solution; then nothing it
-  /// holds is of use.
+  /// Steps of Gauss and Newton until no term is off by much. False: fewer than two poses, or no
+  /// solution; then nothing it holds is of use.
   bool update();
   /// All of it as known by now, which takes as long as it is; sightings that were removed are not
   /// used.
@@ -65,6 +65,8 @@ class IncrementalSmoother {
   /// What is sought, as what it has moved by from where it started.
   Moved moved(int variable) const;
   void place(int variable, const Moved& moved);
+  /// Where the tree has it, unless a step was cut short there.
+  void bring(int variable);
   double costOf(const std::vector<std::size_t>& poses) const;
 
   double gate_probability_;
@@ -74,6 +76,7 @@ class IncrementalSmoother {
   std::optional<int> sensor_;
   std::vector<int> poses_, points_;  ///< variables
   std::vector<Eigen::Vector3d> pose_bases_;
+  std::vector<Eigen::Vector3d> pose_moved_;  ///< from there; turns are not wrapped
   std::vector<Eigen::Vector2d> point_bases_;
   std::vector<std::size_t> number_;                ///< of the pose or the point a variable is
   std::vector<bool> is_point_;                     ///< variables

@@ -62,7 +62,8 @@ class DriveSoFar {
   };
   void start(const RangeBearingOptions& options);
   void stop();
-  void forget(const std::vector<LandmarkId>& landmarks);
+  /// Points and the readings of them.
+  void forget(const std::function<bool(LandmarkId, const Founded&)>& which);
   void addFrames(const DriveRecord& record);
   void addReadings(const DriveRecord& record, const RangeBearingEstimator& estimator,
                    const RangeBearingOptions& options);
@@ -85,8 +86,8 @@ class DriveSoFar {
   std::vector<std::size_t> open_;                ///< readings of no landmark yet
   std::size_t released_ = 0;
   std::map<LandmarkId, Founded> points_;
-  std::size_t tried_frames_ = 0;
-  bool is_smoothed_ = false;  ///< the pose is that of the drive as smoothed last, moved on
+  std::size_t next_frames_ = 0;  ///< when it is time again
+  bool is_smoothed_ = false;     ///< the pose is that of the drive as smoothed last, moved on
   double share_ = 1.0;  ///< of the filter's covariance the smoothed pose had then, if it counts
 };
 
