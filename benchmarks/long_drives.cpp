@@ -10,8 +10,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <memory>
-#include <random>
 #include <vector>
 
 #include "arena_of_posts.hpp"
@@ -23,88 +21,50 @@ namespace {
 
 using namespace colonnade;
 
-/// A robot that wanders from one place of a plain to another.
-class Plain : public FrameSource {
+/// Posts anywhere on a plain, of which the nearest are seen.
+class Plain : public testing::WanderingRobot {
  public:
   Plain(std::size_t posts, std::size_t frames)
-      : side_m_(std::sqrt(kArea_m2 * static_cast<double>(posts))), frames_(frames) {
+      : WanderingRobot(1, frames, {0.2, 0.05, radians(0.3)}),
+        side_m_(std::sqrt(kArea_m2 * static_cast<double>(posts))) {
     for (std::size_t i = 0; i < posts; ++i) posts_.emplace_back(somewhere());
     T_world_robot_ = {0.5 * side_m_, 0.5 * side_m_, 0.0};
     goal_ = somewhere();
   }
 
-  std::optional<Frame> next() override {
-    if (truth.size() == frames_) return std::nullopt;
-    Frame frame;
-    frame.stamp_s = kInterval_s * static_cast<double>(truth.size() + 1);
-    if (!truth.empty()) drive();
-    frame.odometry = OdometryReading{T_world_odometry_, motion_covariance_};
-    frame.range_bearing.emplace();
-    frame.range_bearing->range_sigma_m = kRangeSigma_m;
-    frame.range_bearing->yaw_sigma = kBearingSigma;
-    for (const auto& [distance_m, post] : nearest()) {
-      const Eigen::Vector2d p = transform(T_world_robot_.inverse(), posts_[post]);
-      frame.range_bearing->readings.push_back({static_cast<std::int32_t>(post),
-                                               distance_m + gauss(kRangeSigma_m),
-                                               std::atan2(p.y(), p.x()) + gauss(kBearingSigma),
-                                               0.0,
-                                               {}});
-    }
-    truth.push_back({frame.stamp_s, T_world_robot_.toIsometry3()});
-    return frame;
-  }
-  const Damage& damage() const override { return damage_; }
-  double progress() const override { return 0.0; }
-
-  Trajectory truth;
-
  private:
-  static constexpr double kArea_m2 = 6.0, kInterval_s = 0.2, kRangeSigma_m = 0.05;
-  static constexpr double kBearingSigma = radians(0.3);
+  static constexpr double kArea_m2 = 6.0;
   static constexpr std::size_t kReadings = 8;
 
-  double uniform(double a, double b) {
-    return std::uniform_real_distribution<double>(a, b)(random_);
-  }
-  double gauss(double sigma) { return std::normal_distribution<double>(0.0, sigma)(random_); }
   Eigen::Vector2d somewhere() {
     const double x = uniform(0.0, side_m_);
     return {x, uniform(0.0, side_m_)};
   }
 
-  std::vector<std::pair<double, std::size_t>> nearest() const {
+  void look(std::vector<RangeBearing>& readings) override {
     std::vector<std::pair<double, std::size_t>> nearest;
     for (std::size_t i = 0; i < posts_.size(); ++i)
       nearest.emplace_back((posts_[i] - T_world_robot_.translation()).norm(), i);
     const auto end =
         nearest.begin() + static_cast<std::ptrdiff_t>(std::min(kReadings, nearest.size()));
     std::partial_sort(nearest.begin(), end, nearest.end());
-    nearest.erase(end, nearest.end());
-    return nearest;
+    for (auto post = nearest.begin(); post != end; ++post)
+      read(post->second, posts_[post->second], readings);
   }
 
-  void drive() {
+  void drive() override {
     if ((goal_ - T_world_robot_.translation()).norm() < 0.5) goal_ = somewhere();
-    const Eigen::Vector2d ahead = transform(T_world_robot_.inverse(), goal_);
-    const double direction = std::atan2(ahead.y(), ahead.x());
+    const double direction = directionOf(goal_);
     const double way = std::abs(direction) > 0.8 ? 0.02 : 0.2;
     const double turn = std::clamp(direction, -0.2, 0.2);
-    const Eigen::Vector3d sigma(0.02 * std::sqrt(way), 0.01 * std::sqrt(way),
-                                std::sqrt(1e-4 * way + 2.7e-3 * std::abs(turn) + 1e-6));
-    motion_covariance_ = sigma.cwiseAbs2().asDiagonal();
-    T_world_robot_ = T_world_robot_ * Pose2{way, 0.0, turn};
-    T_world_odometry_ =
-        T_world_odometry_ * Pose2{way + gauss(sigma(0)), gauss(sigma(1)), turn + gauss(sigma(2))};
+    move(way, turn,
+         {0.02 * std::sqrt(way), 0.01 * std::sqrt(way),
+          std::sqrt(1e-4 * way + 2.7e-3 * std::abs(turn) + 1e-6)});
   }
 
   double side_m_;
-  std::size_t frames_;
-  std::mt19937 random_{1};
   std::vector<Eigen::Vector2d> posts_;
   Eigen::Vector2d goal_;
-  Pose2 T_world_robot_, T_world_odometry_;
-  Eigen::Matrix3d motion_covariance_ = 1e-6 * Eigen::Matrix3d::Identity();
-  Damage damage_;
 };
 
 template <class Source>

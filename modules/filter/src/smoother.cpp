@@ -78,18 +78,12 @@ Eigen::MatrixXd pointCovariance(const Drive& drive) {
   return covarianceOf(factor, at.pointAt(0), at.sensorAt() - at.pointAt(0));
 }
 
-/// Whether there was anything to do.
-bool settled(Drive& drive, double gate_probability, Smoothing& result) {
-  for (Drive::Sighting& sighting : drive.sightings)
-    sighting.used = sighting.used && std::isfinite(distance2(drive, sighting));
-  if (drive.T_world_robot.size() < 2 || drive.sightings.empty()) return false;
-  settle(drive, gate_probability, result);
-  return true;
-}
-
 Smoothing smoothWithoutCovariance(Drive& drive, double gate_probability) {
   Smoothing result;
-  if (!settled(drive, gate_probability, result)) return result;
+  for (Drive::Sighting& sighting : drive.sightings)
+    sighting.used = sighting.used && std::isfinite(distance2(drive, sighting));
+  if (drive.T_world_robot.size() < 2 || drive.sightings.empty()) return result;
+  settle(drive, gate_probability, result);
   mend(drive, gate_probability, result);
   mergeDuplicates(drive, gate_probability, result);
   return result;
