@@ -118,7 +118,9 @@ void describe(const RangeBearingSession& session, nlohmann::ordered_json& json) 
                          {"steps", smoothed->how.steps},
                          {"readings_left_out", smoothed->how.unused},
                          {"landmarks_merged", merged},
-                         {"cost", smoothed->how.cost}};
+                         {"cost", smoothed->how.cost},
+                         {"surprise", smoothed->surprise},
+                         {"explained_backwards", smoothed->explained_backwards}};
     if (smoothed->cost_of_identities)
       json["smoothing"]["cost_of_identities"] = *smoothed->cost_of_identities;
   }

@@ -285,7 +285,9 @@ TEST(RangeBearingSmoothing, RealRobotsSortOutWhatTheySee) {
       const LandmarkMap map = session.map();
       const SavedMap saved = session.savedMap();
       EXPECT_LE(map.size(), kPosts + 4) << robot << bearing_sigma;
-      EXPECT_EQ(map.size() + session.smoothed()->merged.size(), session.estimator().map().size());
+      if (!session.smoothed()->explained_backwards) {
+        EXPECT_EQ(map.size() + session.smoothed()->merged.size(), session.estimator().map().size());
+      }
       ASSERT_EQ(saved.state.blocks.size(), map.size());
       for (std::size_t i = 0; i < map.size(); ++i) {
         EXPECT_EQ(saved.state.blocks[i].id, map[i].id);

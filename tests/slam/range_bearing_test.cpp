@@ -223,7 +223,7 @@ TEST(RangeBearing, HiddenIdentitiesAreFoundByEveryMethod) {
     const Outcome outcome = drive(options);
     // Histories side by side found a landmark twice now and then, and never merge the two.
     const bool beam = options.association == "hypotheses";
-    EXPECT_GT(outcome.identities.rightShare(), beam ? 0.9 : 0.99) << method;
+    EXPECT_GT(outcome.identities.rightShare(), beam ? 0.85 : 0.99) << method;
     EXPECT_NEAR(static_cast<double>(outcome.landmarks), 12.0, beam ? 3.0 : 1.0) << method;
     EXPECT_LT(outcome.rmse_m, 1.3 * known + 0.02) << method;
   }

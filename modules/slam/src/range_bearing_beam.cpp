@@ -22,6 +22,8 @@ constexpr double kLeastLogWeightInFixedMap = -40.0;
 /// The states of all histories, and so many at least.
 constexpr std::size_t kStates_bytes = std::size_t{1} << 29;
 constexpr std::size_t kFewest = 4;
+/// In a map that grows, states that take no more than this are cheap: of up to 50 landmarks.
+constexpr std::size_t kCheap_bytes = std::size_t{1} << 23;
 
 enum class Choice { kLandmark, kBirth, kOutlier };
 
@@ -50,13 +52,15 @@ bool agrees(const Account& account, const Account& likelier) {
              std::pow(kFarLessSure, 6) * likelier.robot.covariance.determinant();
 }
 
-/// In a map that stays as it is, three times as many, since all of them differ; of large states
-/// not more than fit into the memory meant for them, though always some.
+/// In a map that stays as it is, three times as many, since all of them differ; in one that grows,
+/// as long as it is small, up to two and a half times as many, since they cost little; of large
+/// states not more than fit into the memory meant for them, though always some.
 std::size_t mostOf(const RangeBearingHypothesis& hypothesis, const RangeBearingOptions& options) {
   const auto wanted = static_cast<std::size_t>(std::max(1, options.hypotheses));
   const auto bytes = static_cast<std::size_t>(hypothesis.filter.state().P.size()) * sizeof(double);
-  const std::size_t room = std::max(kFewest, kStates_bytes / std::max<std::size_t>(1, bytes));
-  return std::min(hypothesis.grows() ? wanted : 3 * wanted, room);
+  const std::size_t cheap = std::clamp(kCheap_bytes / bytes, wanted, 5 * wanted / 2);
+  const std::size_t room = std::max(kFewest, kStates_bytes / bytes);
+  return std::min(hypothesis.grows() ? cheap : 3 * wanted, room);
 }
 
 /// Log density of the innovation.
@@ -105,8 +109,7 @@ class Beam {
   std::vector<Child> bestChildren(std::span<const LandmarkReading> readings,
                                   double noise_scale) const {
     const LandmarkReading& reading = readings.front();
-    const double view =
-        (reading.measurement.hasRange() ? options_.view_range_m : 1.0) * options_.view_angle;
+    const double view = options_.viewFor(reading.measurement);
     const double seen = std::log(1.0 - options_.outlier_share - options_.birth_share);
     const double gate = gateOf(reading.measurement);
     std::vector<Child> children;

@@ -11,6 +11,17 @@
 #include "stopwatch.hpp"
 
 namespace colonnade {
+namespace {
+
+Evidence evidenceOf(const LandmarkRecord& landmark) {
+  Evidence evidence;
+  evidence.observations = landmark.observations;
+  evidence.first_stamp_s = landmark.first_stamp_s;
+  evidence.last_stamp_s = landmark.last_stamp_s;
+  return evidence;
+}
+
+}  // namespace
 
 RangeBearingSession::RangeBearingSession(const RangeBearingOptions& options,
                                          const FilterOptions& filter, const MotionOptions& motion,
@@ -43,8 +54,8 @@ void RangeBearingSession::run(FrameSource& source, const Observer& observer) {
     watch.lap();  // what the observer does is no stage of the session
   }
   if (options_.smooth)
-    smoothed_ =
-        smoothedDrive(record_, so_far_, estimator_, options_, search_ ? std::nullopt : from_);
+    smoothed_ = smoothedDrive(record_, so_far_, estimator_, options_, filter_options_,
+                              search_ ? std::nullopt : from_);
 }
 
 RangeBearingReport RangeBearingSession::take(const Taken& frame) {
@@ -93,7 +104,7 @@ LandmarkMap RangeBearingSession::map() const {
   LandmarkMap map = smoothed_ ? smoothed_->map : moved(estimator_.map(), now().T_world_filter);
   LandmarkMap named = map;
   for (LandmarkRecord& landmark : named) {
-    const auto identity = estimator_.identityOf(landmark.id);
+    const auto identity = identityOf(landmark.id);
     if (!identity) return map;
     landmark.id = LandmarkId{*identity};
   }
@@ -101,37 +112,42 @@ LandmarkMap RangeBearingSession::map() const {
   return named;
 }
 
+std::optional<int> RangeBearingSession::identityOf(LandmarkId landmark) const {
+  if (!smoothed_) return estimator_.identityOf(landmark);
+  const auto identity = smoothed_->identities.find(landmark);
+  return identity == smoothed_->identities.end() ? std::nullopt : std::optional(identity->second);
+}
+
 SavedMap RangeBearingSession::savedMap() const {
+  if (smoothed_ && smoothed_->covariance.size() > 0) return smoothedMap();
   SavedMap map = estimator_.savedMap();
   const Pose2 T = smoothed_ ? smoothed_->T_world_filter : now().T_world_filter;
   moveWorld(map.state, T);
   map.T_world_start = T * map.T_world_start;
   if (!smoothed_) return map;
   for (const auto& [landmark, into] : smoothed_->merged) removeBlock(map.state, landmark);
-  for (const LandmarkRecord& landmark : smoothed_->map) {
-    Evidence& evidence = map.state.find(landmark.id)->evidence;
-    evidence.observations = landmark.observations;
-    evidence.first_stamp_s = landmark.first_stamp_s;
-    evidence.last_stamp_s = landmark.last_stamp_s;
-  }
-  if (smoothed_->covariance.size() == 0) return map;
-  State state;
   for (const LandmarkRecord& landmark : smoothed_->map)
-    state.blocks.push_back({landmark.id, BlockKind::kPoint, landmark.kind,
-                            static_cast<int>(3 + 2 * state.blocks.size()),
-                            map.state.find(landmark.id)->evidence});
-  if (from_ && !search_)
-    map.T_world_start = from_->map.T_world_start;
-  else if (!smoothed_->trajectory.empty())
-    map.T_world_start = planarPart(smoothed_->trajectory.front().T_world_body);
+    map.state.find(landmark.id)->evidence = evidenceOf(landmark);
+  return map;
+}
+
+SavedMap RangeBearingSession::smoothedMap() const {
+  SavedMap map;
+  map.source = SavedMap::Source::kReadings;
+  map.T_world_start = from_ && !search_ ? from_->map.T_world_start
+                                        : planarPart(smoothed_->trajectory.front().T_world_body);
   const Eigen::Index size = smoothed_->covariance.rows();
-  state.x.setZero(3 + size);
-  state.P.setZero(3 + size, 3 + size);
-  state.P.bottomRightCorner(size, size) = smoothed_->covariance;
-  for (Eigen::Index i = 0; i < size; i += 2)
-    state.x.segment<2>(3 + i) = smoothed_->map[static_cast<std::size_t>(i / 2)].p_world;
-  std::erase_if(map.identities, [&](const auto& named) { return !state.find(named.first); });
-  map.state = std::move(state);
+  map.state.x.setZero(3 + size);
+  map.state.P.setZero(3 + size, 3 + size);
+  map.state.P.bottomRightCorner(size, size) = smoothed_->covariance;
+  int offset = 3;
+  for (const LandmarkRecord& landmark : smoothed_->map) {
+    map.state.blocks.push_back(
+        {landmark.id, BlockKind::kPoint, landmark.kind, offset, evidenceOf(landmark)});
+    map.state.x.segment<2>(offset) = landmark.p_world;
+    offset += 2;
+    if (const auto identity = identityOf(landmark.id)) map.identities[landmark.id] = *identity;
+  }
   return map;
 }
 
@@ -156,13 +172,7 @@ std::vector<std::string> RangeBearingSession::notes() const {
 }
 
 IdentityScore RangeBearingSession::identityScore() const {
-  auto decisions = estimator_.decisions();
-  if (smoothed_)
-    for (auto& landmark : decisions)
-      if (const auto into = smoothed_->merged.find(landmark.value_or(LandmarkId{}));
-          landmark && into != smoothed_->merged.end())
-        landmark = into->second;
-  return scoreIdentities(decisions, identities_);
+  return scoreIdentities(smoothed_ ? smoothed_->decisions : estimator_.decisions(), identities_);
 }
 
 }  // namespace colonnade

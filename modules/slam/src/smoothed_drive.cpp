@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "colonnade/slam/smoothed_drive.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <numeric>
 #include <utility>
 
+#include "colonnade/base/angle.hpp"
 #include "colonnade/filter/gate.hpp"
 #include "colonnade/slam/identity_score.hpp"
 #include "known_map.hpp"
@@ -116,46 +118,50 @@ struct Prepared {
   Drive drive;
   std::vector<int> identities;      ///< of the sightings, as the log tells them
   std::vector<std::size_t> places;  ///< of the points, in the map
+  std::size_t unexplained = 0;      ///< readings of no landmark
   std::optional<KnownMap> known;    ///< what a loaded map says of it beforehand
 };
 
 /// Nothing where the loaded map is of no use.
-std::optional<Prepared> prepared(const DriveRecord& record, DriveSoFar& so_far,
-                                 const RangeBearingEstimator& estimator, const LandmarkMap& map,
+std::optional<Prepared> prepared(const DriveRecord& record, const Explanation& explanation,
                                  const RangeBearingOptions& options,
                                  const std::optional<Resumption>& from) {
+  const LandmarkMap& map = explanation.map;
   Prepared result;
   Drive& drive = result.drive;
-  drive.T_world_robot = so_far.poses();
+  drive.T_world_robot = explanation.T_world_robot;
   drive.motions = record.motions;
   if (options.estimate_sensor)
-    drive.sensor = {so_far.sensorErrors().value_or(SensorErrors{}), options.sensor_sigmas};
+    drive.sensor = {explanation.sensor.value_or(SensorErrors{}), options.sensor_sigmas};
   std::map<LandmarkId, std::size_t> point_of_landmark;
   std::map<int, std::size_t> point_of_identity;
   for (const LandmarkRecord& landmark : map) {
     const std::size_t point = drive.points_world.size();
     point_of_landmark[landmark.id] = point;
-    const auto identity = estimator.identityOf(landmark.id);
-    if (identity) point_of_identity[*identity] = point;
-    drive.nameless.push_back(!identity);
+    const auto identity = explanation.identities.find(landmark.id);
+    const bool named = identity != explanation.identities.end();
+    if (named) point_of_identity[identity->second] = point;
+    drive.nameless.push_back(!named);
     drive.points_world.push_back(landmark.p_world);
   }
   std::vector<bool> seen(map.size(), false);
-  const auto decisions = estimator.decisions();
   for (std::size_t i = 0; i < record.readings.size(); ++i) {
     const DriveRecord::Reading& reading = record.readings[i];
+    const auto& decided = explanation.decisions[i];
     if (!reading.measurement) continue;
     std::optional<std::size_t> point;
     const auto bearer = point_of_identity.find(reading.identity);
     if (options.use_ids && reading.identity >= 0 && bearer != point_of_identity.end()) {
       point = bearer->second;
-    } else if (decisions[i]) {
-      const auto landmark = point_of_landmark.find(*decisions[i]);
+    } else if (decided) {
+      const auto landmark = point_of_landmark.find(*decided);
       if (landmark != point_of_landmark.end()) point = landmark->second;
     }
-    if (!point) continue;
-    const bool used = so_far.isUsed(i).value_or(decisions[i].has_value());
-    drive.sightings.push_back({reading.frame, *point, *reading.measurement, used});
+    if (!point) {
+      ++result.unexplained;
+      continue;
+    }
+    drive.sightings.push_back({reading.frame, *point, *reading.measurement, explanation.used[i]});
     result.identities.push_back(reading.identity);
     if (options.bearing_only && !options.wait_for_parallax && !seen[*point] &&
         !(from && from->map.state.find(map[*point].id)))
@@ -175,29 +181,52 @@ std::optional<Prepared> prepared(const DriveRecord& record, DriveSoFar& so_far,
   return result;
 }
 
-/// With places as known by now.
-LandmarkMap mapSoFar(const RangeBearingEstimator& estimator, DriveSoFar& so_far) {
-  LandmarkMap map = moved(estimator.map(), so_far.now().T_world_filter);
-  const auto places = so_far.places();
-  for (LandmarkRecord& landmark : map)
-    if (const auto known = places.find(landmark.id); known != places.end())
-      landmark.p_world = landmark.extent_a = landmark.extent_b = known->second;
-  return map;
+/// Minus twice the logarithm of the probability that a reading is of something that is one in
+/// `share` of the readings and anywhere in view, less that of a right reading that fits exactly.
+double surpriseOf(double share, const Measurement& measurement,
+                  const RangeBearingOptions& options) {
+  return -2.0 * std::log(share / options.viewFor(measurement)) -
+         std::log((2.0 * kPi * measurement.R).determinant());
+}
+
+/// SmoothedDrive::surprise.
+double surpriseOf(const Drive& drive, const std::vector<double>& used, double cost,
+                  std::size_t unexplained, const RangeBearingOptions& options) {
+  double birth = 0.0, outlier = 0.0;
+  for (const Drive::Sighting& sighting : drive.sightings) {
+    birth += surpriseOf(options.birth_share, sighting.measurement, options);
+    outlier += surpriseOf(options.outlier_share, sighting.measurement, options);
+  }
+  const auto readings = static_cast<double>(drive.sightings.size());
+  const auto landmarks = std::count_if(used.begin(), used.end(), [](double n) { return n > 0.0; });
+  return cost +
+         (static_cast<double>(landmarks) * birth + static_cast<double>(unexplained) * outlier) /
+             readings;
+}
+
+/// What became of the decisions, where landmarks were merged or bear identities.
+std::vector<std::optional<LandmarkId>> finalDecisions(
+    const std::vector<std::optional<LandmarkId>>& decisions,
+    const std::map<LandmarkId, LandmarkId>& merged) {
+  auto result = decisions;
+  for (auto& landmark : result)
+    if (const auto into = landmark ? merged.find(*landmark) : merged.end(); into != merged.end())
+      landmark = into->second;
+  return result;
 }
 
 }  // namespace
 
-std::optional<SmoothedDrive> smoothedDrive(const DriveRecord& record, DriveSoFar& so_far,
-                                           const RangeBearingEstimator& estimator,
+std::optional<SmoothedDrive> smoothedDrive(const DriveRecord& record,
+                                           const Explanation& explanation, const DriveSoFar& so_far,
                                            const RangeBearingOptions& options,
                                            const std::optional<Resumption>& from) {
-  if (record.stamps_s.empty()) return std::nullopt;
-  so_far.followHistory(estimator.decisions());
-  SmoothedDrive result;
-  result.map = from ? estimator.map() : mapSoFar(estimator, so_far);
-  auto prepared = colonnade::prepared(record, so_far, estimator, result.map, options, from);
+  auto prepared = colonnade::prepared(record, explanation, options, from);
   if (!prepared) return std::nullopt;
-  auto& [drive, identities, places, known] = *prepared;
+  auto& [drive, identities, places, unexplained, known] = *prepared;
+  SmoothedDrive result;
+  result.map = explanation.map;
+  result.identities = explanation.identities;
   result.how = smooth(drive, options.known_gate_probability);
   if (!std::isfinite(result.how.cost) || 2 * result.how.unused >= drive.sightings.size())
     return std::nullopt;
@@ -211,6 +240,7 @@ std::optional<SmoothedDrive> smoothedDrive(const DriveRecord& record, DriveSoFar
   std::vector<double> used(drive.points_world.size(), 0.0);
   for (const Drive::Sighting& sighting : drive.sightings)
     if (sighting.used) used[sighting.point] += 1.0;
+  result.surprise = surpriseOf(drive, used, result.how.cost, unexplained, options);
   const Pose2 T_map_start =
       options.world_with_map && !from
           ? so_far.asSaid([&](std::size_t k) { return drive.T_world_robot[k]; })
@@ -224,6 +254,7 @@ std::optional<SmoothedDrive> smoothedDrive(const DriveRecord& record, DriveSoFar
   else if (!from->localize)
     known->spread(drive.points_world, result.how.covariance, used, result.map, result.covariance);
   unite(result.how.merged, places, result);
+  result.decisions = finalDecisions(explanation.decisions, result.merged);
   return result;
 }
 

@@ -21,10 +21,12 @@ struct DriveRecord {
   std::vector<double> stamps_s;
   std::vector<Drive::Motion> motions;
   std::vector<Reading> readings;
+  std::vector<RangeBearingScan> scans;  ///< as they came, for another estimator
 
   void add(double stamp_s, const RangeBearingScan& scan, const RangeBearingReport& report) {
     for (std::size_t i = 0; i < scan.readings.size(); ++i)
       readings.push_back({stamps_s.size(), scan.readings[i].id, report.measurements[i]});
+    scans.push_back(scan);
     stamps_s.push_back(stamp_s);
     motions.push_back({report.T_previous_robot, report.motion_covariance});
   }

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "colonnade/base/angle.hpp"
+#include "colonnade/base/measurement.hpp"
 #include "colonnade/base/options.hpp"
 #include "colonnade/filter/sensor_errors.hpp"
 
@@ -33,6 +34,7 @@ struct RangeBearingOptions {
   bool world_with_map = true;
   bool smooth = true;
   int smooth_every = 10;
+  bool look_back = true;
   int hypotheses = 40;
   double outlier_share = 0.03;
   double birth_share = 0.01;
@@ -46,6 +48,11 @@ struct RangeBearingOptions {
   double inverse_depth_sigma = 0.25;
   double min_baseline_m = 0.1;
   double min_parallax = radians(8.0);
+
+  /// How much the sensor sees, in the numbers of a measurement: metres times radians, or radians.
+  double viewFor(const Measurement& measurement) const {
+    return (measurement.hasRange() ? view_range_m : 1.0) * view_angle;
+  }
 
   void visit(OptionVisitor& v) {
     v.number("range_sigma_m", range_sigma_m, {0, 100}, "of a range; 0: what the log states");
@@ -88,10 +95,13 @@ struct RangeBearingOptions {
     v.integer("smooth_every", smooth_every, {0, 1000000},
               "frames, and more in long logs: find those that suit what was read so far best "
               "(trajectory.tum); 0: only at the end");
+    v.flag("look_back", look_back,
+           "explain a log of hidden identities once more from its end; the better explanation is "
+           "smoothed");
     v.integer(
         "hypotheses", hypotheses, {1, 1000},
-        "joint histories kept side by side; three times as many in a map that is left as it is, "
-        "fewer where they take too much memory");
+        "joint histories kept side by side; up to two and a half times as many in a small map, "
+        "three times in a map that is left as it is, fewer where they take too much memory");
     v.number("outlier_share", outlier_share, {1e-6, 0.5}, "of the readings (hypotheses)");
     v.number("birth_share", birth_share, {1e-9, 0.5},
              "of the readings that show a new landmark (hypotheses)");

@@ -65,6 +65,8 @@ class RangeBearingSession {
     RangeBearingScan scan;
   };
   RangeBearingReport take(const Taken& frame);
+  std::optional<int> identityOf(LandmarkId landmark) const;
+  SavedMap smoothedMap() const;
   void lookForPlace(const Taken& frame, const RangeBearingReport& taken, std::size_t index,
                     std::vector<Event>& events);
 
