@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include <utility>
 
 #include "arena_of_posts.hpp"
 #include "backwards.hpp"
@@ -139,13 +140,76 @@ TEST(LookBack, TheWayBackIsAsUnsureAsTheWayThere) {
   EXPECT_LT((back.covariance - J * there.covariance * J.transpose()).norm(), 1e-9);
 }
 
-/// Known identities leave nothing to decide, and a loaded map says where the start is.
-TEST(LookBack, HasNothingToSayWhereIdentitiesAreKnown) {
+TEST(LookBack, HasNothingToDecideWhereIdentitiesAreKnown) {
   ArenaOfPosts source = hardArena(22);
   RangeBearingSession session({}, {}, {});
   session.run(source, [](const auto&...) { return true; });
   ASSERT_TRUE(session.smoothed());
   EXPECT_FALSE(session.smoothed()->explained_backwards);
+}
+
+/// Some readings without identity, some that are none.
+class SpoiltReadings : public FrameSource {
+ public:
+  explicit SpoiltReadings(ArenaOfPosts arena) : arena_(std::move(arena)) {}
+  std::optional<Frame> next() override {
+    auto frame = arena_.next();
+    if (!frame) return frame;
+    for (RangeBearing& reading : frame->range_bearing->readings) {
+      if (readings % 2 == 0) reading.id = -1;
+      if (readings % 7 == 3) reading.range_m = std::nan("");
+      ++readings;
+    }
+    return frame;
+  }
+  const Damage& damage() const override { return arena_.damage(); }
+  double progress() const override { return 0.0; }
+  const Trajectory& truth() const { return arena_.truth; }
+
+  std::size_t readings = 0;
+
+ private:
+  ArenaOfPosts arena_;
+};
+
+TEST(LookBack, KeepsReadingsApartFromThoseThatAreNone) {
+  SpoiltReadings source(ArenaOfPosts(3));
+  RangeBearingOptions options;
+  RangeBearingEstimator estimator(options, {});
+  DriveRecord record;
+  DriveSoFar so_far;
+  MotionEstimator wheels({}, nullptr);
+  while (const auto frame = source.next()) {
+    const auto report =
+        estimator.step(frame->stamp_s, wheels.increment(*frame), *frame->range_bearing);
+    record.add(frame->stamp_s, *frame->range_bearing, report);
+    so_far.follow(estimator, report.motion_covariance);
+    so_far.catchUp(record, estimator, options);
+  }
+  const Explanation forwards = explanationOf(record, so_far, estimator, false);
+  const Explanation backwards = explainedBackwards(record, forwards, options, {});
+  ASSERT_EQ(backwards.decisions.size(), source.readings);
+  for (std::size_t i = 3; i < source.readings; i += 7) EXPECT_FALSE(backwards.decisions[i]);
+  for (const auto& [landmark, identity] : backwards.identities) {
+    EXPECT_GT(identity, 0);
+    for (std::size_t i = 0; i < source.readings; ++i)
+      if (backwards.decisions[i] == landmark && record.readings[i].identity > 0) {
+        EXPECT_EQ(record.readings[i].identity, identity);
+      }
+  }
+  const auto smoothed = smoothedDrive(record, backwards, so_far, options);
+  ASSERT_TRUE(smoothed);
+  EXPECT_LT(evaluateTrajectory(smoothed->trajectory, source.truth()).ate_rmse_m, 0.1);
+}
+
+TEST(LookBack, TakesLogsOfAFrameOrTwo) {
+  for (const std::size_t frames : {0U, 1U, 2U, 3U}) {
+    ArenaOfPosts source(22, frames, 3, 1.0);
+    RangeBearingSession session(hidden(), {}, {});
+    session.run(source, [](const auto&...) { return true; });
+    EXPECT_EQ(session.trajectory().size(), frames);
+    EXPECT_EQ(session.savedMap().state.blocks.size(), session.map().size());
+  }
 }
 
 }  // namespace

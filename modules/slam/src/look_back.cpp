@@ -8,8 +8,10 @@
 namespace colonnade {
 namespace {
 
-/// Readings times landmarks squared: what an estimator takes grows with that. Some seconds.
-constexpr double kMostWork = 2e7;
+/// Five seconds for a quarter of an hour past 15 landmarks, one minute at most.
+constexpr double kMostWork = 5e7;
+/// Whatever the landmarks: the robot itself, and what a history takes besides.
+constexpr double kLandmarksAtLeast = 15.0;
 /// What is less of a surprise by about two landmarks is the better explanation.
 constexpr double kClearly = 50.0;
 
@@ -19,9 +21,12 @@ bool hasHidden(const DriveRecord& record, const RangeBearingOptions& options) {
   });
 }
 
-bool isAffordable(const DriveRecord& record, const LandmarkMap& map) {
-  const auto landmarks = static_cast<double>(map.size());
-  return static_cast<double>(record.readings.size()) * landmarks * landmarks <= kMostWork;
+/// Every history is moved in each frame and corrected by each reading, in the square of its state.
+bool isAffordable(const DriveRecord& record, const LandmarkMap& map, int histories) {
+  const auto steps = static_cast<double>(record.scans.size() + record.readings.size());
+  const double size = kLandmarksAtLeast + static_cast<double>(map.size());
+  const double share = static_cast<double>(histories) / RangeBearingOptions{}.hypotheses;
+  return share * steps * size * size <= kMostWork;
 }
 
 }  // namespace
@@ -31,15 +36,16 @@ std::optional<SmoothedDrive> smoothedDrive(const DriveRecord& record, DriveSoFar
                                            const RangeBearingOptions& options,
                                            const FilterOptions& filter_options,
                                            const std::optional<Resumption>& from) {
-  if (record.stamps_s.empty()) return std::nullopt;
   const Explanation forwards = explanationOf(record, so_far, estimator, from.has_value());
   auto smoothed = smoothedDrive(record, forwards, so_far, options, from);
   if (!smoothed || from || !options.look_back || !hasHidden(record, options) ||
-      !isAffordable(record, forwards.map))
+      !isAffordable(record, forwards.map, options.hypotheses))
     return smoothed;
   const Explanation backwards = explainedBackwards(record, forwards, options, filter_options);
   auto other = smoothedDrive(record, backwards, so_far, options);
-  if (!other || !(other->surprise < smoothed->surprise - kClearly)) return smoothed;
+  // Without covariances the map is the filter's, which knows the landmarks of the way there alone.
+  if (!other || other->covariance.size() == 0 || !(other->surprise < smoothed->surprise - kClearly))
+    return smoothed;
   other->explained_backwards = true;
   return other;
 }

@@ -58,7 +58,9 @@ bool agrees(const Account& account, const Account& likelier) {
 std::size_t mostOf(const RangeBearingHypothesis& hypothesis, const RangeBearingOptions& options) {
   const auto wanted = static_cast<std::size_t>(std::max(1, options.hypotheses));
   const auto bytes = static_cast<std::size_t>(hypothesis.filter.state().P.size()) * sizeof(double);
-  const std::size_t cheap = std::clamp(kCheap_bytes / bytes, wanted, 5 * wanted / 2);
+  const bool small = wanted > 1 && hypothesis.filter.resting().blocks().empty();
+  const std::size_t cheap =
+      small ? std::clamp(kCheap_bytes / bytes, wanted, 5 * wanted / 2) : wanted;
   const std::size_t room = std::max(kFewest, kStates_bytes / bytes);
   return std::min(hypothesis.grows() ? cheap : 3 * wanted, room);
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <set>
 #include <utility>
 
 #include "colonnade/base/angle.hpp"
@@ -204,15 +205,17 @@ double surpriseOf(const Drive& drive, const std::vector<double>& used, double co
              readings;
 }
 
-/// What became of the decisions, where landmarks were merged or bear identities.
+/// SmoothedDrive::decisions.
 std::vector<std::optional<LandmarkId>> finalDecisions(
-    const std::vector<std::optional<LandmarkId>>& decisions,
-    const std::map<LandmarkId, LandmarkId>& merged) {
-  auto result = decisions;
-  for (auto& landmark : result)
-    if (const auto into = landmark ? merged.find(*landmark) : merged.end(); into != merged.end())
-      landmark = into->second;
-  return result;
+    std::vector<std::optional<LandmarkId>> decisions, const SmoothedDrive& result) {
+  std::set<LandmarkId> in_map;
+  for (const LandmarkRecord& landmark : result.map) in_map.insert(landmark.id);
+  for (auto& landmark : decisions) {
+    const auto into = landmark ? result.merged.find(*landmark) : result.merged.end();
+    if (into != result.merged.end()) landmark = into->second;
+    if (landmark && !in_map.contains(*landmark)) landmark.reset();
+  }
+  return decisions;
 }
 
 }  // namespace
@@ -221,6 +224,7 @@ std::optional<SmoothedDrive> smoothedDrive(const DriveRecord& record,
                                            const Explanation& explanation, const DriveSoFar& so_far,
                                            const RangeBearingOptions& options,
                                            const std::optional<Resumption>& from) {
+  if (record.stamps_s.empty()) return std::nullopt;
   auto prepared = colonnade::prepared(record, explanation, options, from);
   if (!prepared) return std::nullopt;
   auto& [drive, identities, places, unexplained, known] = *prepared;
@@ -254,7 +258,7 @@ std::optional<SmoothedDrive> smoothedDrive(const DriveRecord& record,
   else if (!from->localize)
     known->spread(drive.points_world, result.how.covariance, used, result.map, result.covariance);
   unite(result.how.merged, places, result);
-  result.decisions = finalDecisions(explanation.decisions, result.merged);
+  result.decisions = finalDecisions(explanation.decisions, result);
   return result;
 }
 

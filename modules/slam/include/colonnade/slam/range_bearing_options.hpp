@@ -96,8 +96,8 @@ struct RangeBearingOptions {
               "frames, and more in long logs: find those that suit what was read so far best "
               "(trajectory.tum); 0: only at the end");
     v.flag("look_back", look_back,
-           "explain a log of hidden identities once more from its end; the better explanation is "
-           "smoothed");
+           "explain a log of hidden identities once more from its end, which takes as long again; "
+           "the better explanation is smoothed");
     v.integer(
         "hypotheses", hypotheses, {1, 1000},
         "joint histories kept side by side; up to two and a half times as many in a small map, "

@@ -39,7 +39,8 @@ class RangeBearingSession {
   /// or where smoothedDrive() has nothing.
   const std::optional<SmoothedDrive>& smoothed() const { return smoothed_; }
   /// Smoothed, once it is. Where the log's identities are believed and every landmark has one, they
-  /// are the ids of the map; otherwise those of the filter.
+  /// are the ids of the map; otherwise those of the filter, with new ones for what only the look
+  /// back found.
   LandmarkMap map() const;
   /// Every frame as it was known at its moment, or, before its place was found, when that was.
   const Trajectory& trajectory() const { return trajectory_; }

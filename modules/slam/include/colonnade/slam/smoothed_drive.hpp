@@ -19,7 +19,7 @@ struct SmoothedDrive {
   /// Landmarks founded twice that are no more in the map, and those of the map they are.
   std::map<LandmarkId, LandmarkId> merged;
   std::map<LandmarkId, int> identities;              ///< of landmarks, where believed and known
-  std::vector<std::optional<LandmarkId>> decisions;  ///< of each reading, in the map
+  std::vector<std::optional<LandmarkId>> decisions;  ///< for each reading, of map
   /// Minus twice the logarithm of the probability of all readings, but for what is the same for
   /// every explanation: what the drive costs and what landmarks and readings of none cost by
   /// RangeBearing.birth_share and outlier_share. Smaller: explained better.
@@ -51,7 +51,8 @@ std::optional<SmoothedDrive> smoothedDrive(const DriveRecord& record,
 
 /// The same as the estimator explains it. With RangeBearing.look_back, identities hidden and no map
 /// loaded, an estimator of its own explains it once more from its end, and the explanation that is
-/// less of a surprise counts (not where that would take longer than some seconds).
+/// less of a surprise counts. That takes as long as the estimator took, and is left where it would
+/// take longer than a minute.
 std::optional<SmoothedDrive> smoothedDrive(const DriveRecord& record, DriveSoFar& so_far,
                                            const RangeBearingEstimator& estimator,
                                            const RangeBearingOptions& options,
